@@ -1,0 +1,42 @@
+#pragma once
+// The equation, written once:
+//
+//   I = Ka Ia / R  +  sum over lights l of  Il / r  [ Kd (N.L)+  +  Ks ((R.V)+)^n ]
+//       \_______/                            \____/   \_________________________/
+//       ambient                              arriving  the model's two terms
+//
+// The renderer, the tests and everything that explains a picture call this one function.
+
+#include "illumination/model.h"
+
+namespace lambent {
+
+/// Says which term is being added to the sum, to whoever wants to know.
+enum class Term { ambient, diffuse, specular };
+
+struct NoObserver {
+  template <class C> void operator()(Term, int /*light*/, const C&) const {}
+};
+
+inline namespace LAMBENT_ISA {
+
+/// The colour that the surface point s sends to where the ray came from.
+///   Ia        the ambient light, already divided by R where the scene asks for it
+///   arriving  l -> Arriving<F, C>: light l at this point, after attenuation and shadow
+///   observe   (term, light, colour): called once for each summand, in the order of the sum
+template <class Model, class F, class C, class Lights, class Observer = NoObserver>
+C illuminate(const Surface<F, C>& s, const C& Ia, int lights, const Lights& arriving, const Observer& observe = {}) {
+  C I = s.ka * Ia;
+  observe(Term::ambient, -1, I);
+  for (int l = 0; l < lights; ++l) {
+    const Terms<C> term = Model::evaluate(s, arriving(l));
+    observe(Term::diffuse, l, term.diffuse);
+    observe(Term::specular, l, term.specular);
+    I = I + term.diffuse;
+    I = I + term.specular;
+  }
+  return I;
+}
+
+}  // namespace LAMBENT_ISA
+}  // namespace lambent

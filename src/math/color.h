@@ -1,0 +1,63 @@
+#pragma once
+// Colours: one number for each channel. Three channels (linear RGB) today; nothing outside this room assumes so.
+
+#include "math/isa.h"
+#include "math/number.h"
+
+namespace lambent {
+
+inline constexpr int color_channels = 3;
+
+template <class F, int Channels = color_channels>
+struct Color {
+  F c[Channels]{};
+  constexpr F& operator[](int i) { return c[i]; }
+  constexpr const F& operator[](int i) const { return c[i]; }
+};
+
+/// The colour of scenes, lights and materials: linear RGB, 1 is white.
+using Rgb = Color<double, 3>;
+
+inline namespace LAMBENT_ISA {
+
+template <class F, int C> constexpr Color<F, C> operator+(Color<F, C> a, const Color<F, C>& b) {
+  for (int i = 0; i < C; ++i) a[i] = a[i] + b[i];
+  return a;
+}
+template <class F, int C> constexpr Color<F, C> operator-(Color<F, C> a, const Color<F, C>& b) {
+  for (int i = 0; i < C; ++i) a[i] = a[i] - b[i];
+  return a;
+}
+template <class F, int C> constexpr Color<F, C> operator*(Color<F, C> a, const Color<F, C>& b) {
+  for (int i = 0; i < C; ++i) a[i] = a[i] * b[i];
+  return a;
+}
+template <class F, int C> constexpr Color<F, C> operator*(const F& s, Color<F, C> a) {
+  for (int i = 0; i < C; ++i) a[i] = s * a[i];
+  return a;
+}
+template <class F, int C> constexpr Color<F, C> operator*(const Color<F, C>& a, const F& s) { return s * a; }
+template <class F, int C> constexpr Color<F, C> operator/(Color<F, C> a, const F& s) {
+  for (int i = 0; i < C; ++i) a[i] = a[i] / s;
+  return a;
+}
+template <class F, int C> constexpr bool operator==(const Color<F, C>& a, const Color<F, C>& b) {
+  for (int i = 0; i < C; ++i)
+    if (!(a[i] == b[i])) return false;
+  return true;
+}
+template <class F, int C, class M> Color<F, C> select(const M& m, const Color<F, C>& a, const Color<F, C>& b) {
+  Color<F, C> result;
+  for (int i = 0; i < C; ++i) result[i] = select(m, a[i], b[i]);
+  return result;
+}
+/// The same number in every channel.
+template <class F, int C = color_channels> constexpr Color<F, C> grey(const F& value) {
+  Color<F, C> result;
+  for (int i = 0; i < C; ++i) result[i] = value;
+  return result;
+}
+template <int C> constexpr bool is_black(const Color<double, C>& a) { return a == Color<double, C>{}; }
+
+}  // namespace LAMBENT_ISA
+}  // namespace lambent

@@ -1,0 +1,227 @@
+#pragma once
+// The scene: plain structs with indices. Everything that makes a picture, and nothing about how it is made.
+//
+// Lengths are in scene units, angles in degrees, colours linear RGB. Right-handed coordinates. Each struct of settings has
+// its table of parameters beside it: the file format, its schema and the manual are made from these tables.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "illumination/models.h"
+#include "lambent/diagnostics.h"
+#include "lights/lights.h"
+#include "math/transform.h"
+#include "parameters/parameter.h"
+
+namespace lambent {
+
+enum class Projection { perspective, orthographic };
+
+struct Camera {
+  Projection projection = Projection::perspective;
+  Vec3<double> eye{0, 0, 5};
+  Vec3<double> target{0, 0, 0};
+  Vec3<double> up{0, 1, 0};
+  double fov = 40;
+  double height = 2;
+};
+template <>
+inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
+    {"eye", &Camera::eye, {}, "scene units", "Where the camera stands.", true, Kind::point},
+    {"target", &Camera::target, {}, "scene units", "The point in the middle of the picture.", true, Kind::point},
+    {"up", &Camera::up, {}, "", "The direction that is up in the picture; not along the way to the target.", false, Kind::direction},
+    {"fov", &Camera::fov, {0.01, 179}, "degrees", "Vertical field of view of a perspective camera."},
+    {"height", &Camera::height, positive, "scene units", "Height of what an orthographic camera sees."},
+};
+
+/// Where the samples of a pixel lie.
+enum class Pattern {
+  stratified,  ///< `samples` points in each pixel, spread evenly, the same in every pixel; one sample is the centre.
+  corners,     ///< One ray through each corner of the pixels, a pixel is the mean of its four (the SPD benchmark's rule).
+};
+enum class Filter { box, tent };
+
+struct ImageSettings {
+  int width = 1280, height = 720;
+  int samples = 1;
+  Pattern pattern = Pattern::stratified;
+  Filter filter = Filter::box;
+};
+template <>
+inline constexpr Parameter<ImageSettings> parameters_of<ImageSettings>[] = {
+    {"samples", &ImageSettings::samples, {1, 65536}, "", "Rays through each pixel; with one, it goes through the centre."},
+};
+
+/// The choices of the lecture that hold for the whole scene.
+struct Illumination {
+  ModelId model = ModelId::phong;
+  Rgb ambient{1, 1, 1};                                    ///< Ia.
+  std::optional<Attenuation> attenuation;                  ///< Unset: the model's own.
+  std::optional<AmbientAttenuation> ambient_attenuation;   ///< Likewise.
+  double minimum_distance = 1e-3;
+};
+template <>
+inline constexpr Parameter<Illumination> parameters_of<Illumination>[] = {
+    {"ambient", &Illumination::ambient, at_least_zero, "", "The ambient light Ia."},
+    {"minimum_distance", &Illumination::minimum_distance, positive, "scene units", "r and R count as at least this, so that 1/r stays finite."},
+};
+
+struct WhittedSettings {
+  int max_depth = 5;
+  bool shadows = true;
+  bool colored_shadows = true;
+};
+template <>
+inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
+    {"max_depth", &WhittedSettings::max_depth, {1, 64}, "", "How often a ray may be followed on; the ray from the eye is 1."},
+    {"shadows", &WhittedSettings::shadows, {}, "", "Whether objects block light."},
+    {"colored_shadows", &WhittedSettings::colored_shadows, {}, "",
+     "Whether a transmitting surface lets light through, straight on, times its transmit; if not, it blocks as any other."},
+};
+
+struct Material {
+  std::string name;
+  Place place;  ///< Where it was written.
+  Rgb ambient{0.1, 0.1, 0.1};
+  Rgb diffuse{0.8, 0.8, 0.8};
+  Rgb specular{0, 0, 0};
+  double shininess = 32;
+  Rgb reflect{0, 0, 0};
+  Rgb transmit{0, 0, 0};
+  double ior = 1.5;
+  Rgb emission{0, 0, 0};
+  std::optional<ModelId> model;               ///< Unset: the scene's.
+  std::map<std::string, double> own;          ///< The models' own parameters that the file gives, by name.
+};
+template <>
+inline constexpr Parameter<Material> parameters_of<Material>[] = {
+    {"ambient", &Material::ambient, at_least_zero, "", "Ka, what the surface sends back of the ambient light; the lecture's getambient()."},
+    {"diffuse", &Material::diffuse, at_least_zero, "", "Kd, the share of light scattered alike in all directions; getdiffuse()."},
+    {"specular", &Material::specular, at_least_zero, "", "Ks, the strength of the highlight; getspecular()."},
+    {"shininess", &Material::shininess, {0, 1e6}, "", "n, the highlight's power: the larger, the smaller the highlight."},
+    {"reflect", &Material::reflect, at_least_zero, "", "Factor on the colour that comes along the mirror ray."},
+    {"transmit", &Material::transmit, at_least_zero, "", "Factor on the colour that comes along the refracted ray."},
+    {"ior", &Material::ior, {0.01, 100}, "", "Index of refraction of what lies behind the surface; 1 does not bend."},
+    {"emission", &Material::emission, at_least_zero, "", "Light of its own, added to everything; it lights no other surface."},
+};
+
+// ---- shapes: arrays of primitives of one kind -------------------------------------------------------------------------
+
+struct Sphere {
+  Vec3<double> center{0, 0, 0};
+  double radius = 1;
+};
+template <>
+inline constexpr Parameter<Sphere> parameters_of<Sphere>[] = {
+    {"center", &Sphere::center, {}, "scene units", "The centre.", true, Kind::point},
+    {"radius", &Sphere::radius, positive, "scene units", "The radius.", true},
+};
+
+struct Plane {
+  Vec3<double> point{0, 0, 0};
+  Vec3<double> normal{0, 1, 0};
+};
+template <>
+inline constexpr Parameter<Plane> parameters_of<Plane>[] = {
+    {"point", &Plane::point, {}, "scene units", "Any point of the plane; of a bounded one, its middle.", true, Kind::point},
+    {"normal", &Plane::normal, {}, "", "The direction it faces; of any length.", true, Kind::direction},
+};
+
+struct Disc {
+  Vec3<double> center{0, 0, 0};
+  Vec3<double> normal{0, 1, 0};
+  double radius = 1;
+};
+template <>
+inline constexpr Parameter<Disc> parameters_of<Disc>[] = {
+    {"center", &Disc::center, {}, "scene units", "The centre.", true, Kind::point},
+    {"normal", &Disc::normal, {}, "", "The direction it faces; of any length.", true, Kind::direction},
+    {"radius", &Disc::radius, positive, "scene units", "The radius.", true},
+};
+
+/// A cone's side between two circles; a cylinder has two equal radii. Open at both ends (caps are discs of their own).
+struct Cone {
+  Vec3<double> from{0, 0, 0};
+  Vec3<double> to{0, 1, 0};
+  double radius_from = 1, radius_to = 0;
+};
+template <>
+inline constexpr Parameter<Cone> parameters_of<Cone>[] = {
+    {"from", &Cone::from, {}, "scene units", "Centre of one end.", true, Kind::point},
+    {"to", &Cone::to, {}, "scene units", "Centre of the other end.", true, Kind::point},
+    {"radius_from", &Cone::radius_from, at_least_zero, "scene units", "Radius at `from`.", true},
+    {"radius_to", &Cone::radius_to, at_least_zero, "scene units", "Radius at `to`.", true},
+};
+
+/// A triangle mesh. Faces are counter-clockwise seen from outside. normals and uvs are empty, or one for each vertex.
+struct Mesh {
+  std::vector<Vec3<float>> vertices;
+  std::vector<Vec3<float>> normals;  ///< Unit length (or zero: then the face's own normal is taken).
+  std::vector<Vec2<float>> uvs;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+using Primitives = std::variant<Mesh, std::vector<Sphere>, std::vector<Cone>, std::vector<Disc>, std::vector<Plane>>;
+
+/// Primitives of one kind, in coordinates of their own; any number of objects may show them.
+struct Shape {
+  std::string name;  ///< "sphere", "balls.nff", ...: for people.
+  Primitives primitives;
+  /// Which of the object's materials each primitive has: an index into Object::materials. Empty: all the first.
+  std::vector<std::uint32_t> material_of_primitive;
+};
+std::size_t primitive_count(const Shape& shape);
+
+/// A shape placed in the world.
+struct Object {
+  std::string name;
+  Place place;
+  std::uint32_t shape = 0;               ///< Index into Scene::shapes.
+  std::vector<std::uint32_t> materials;  ///< Indices into Scene::materials; one at least.
+  Transform world_from_object;
+};
+
+/// A light of the scene: which it is, and what people call it.
+struct Light {
+  std::string name;
+  Place place;
+  AnyLight light;
+};
+
+struct Scene {
+  std::string name;  ///< The input's file name, without its folder.
+  Camera camera;
+  ImageSettings image;
+  Illumination illumination;
+  WhittedSettings whitted;
+  Rgb background{0, 0, 0};
+  std::vector<Light> lights;
+  std::vector<Material> materials;
+  std::vector<Shape> shapes;
+  std::vector<Object> objects;
+  std::vector<Diagnostic> warnings;
+};
+
+/// The smallest box around something; empty where lower > upper.
+struct Bounds {
+  Vec3<double> lower{1e300, 1e300, 1e300}, upper{-1e300, -1e300, -1e300};
+  bool empty() const { return lower.x > upper.x; }
+  void add(const Vec3<double>& p);
+};
+/// Of everything in the scene that is bounded, in the world. Infinite planes do not count.
+Bounds bounds(const Scene& scene);
+Bounds bounds(const Shape& shape, const Transform& world_from_object = {});
+
+/// Largest absolute coordinate that the ray queries are made for: their products of three coordinates stay finite
+/// in float up to here.
+inline constexpr double largest_coordinate = 1e10;
+
+/// What the reader of one file cannot see: coordinates out of reach once placed in the world, indices that point nowhere. Empty: all is well.
+std::vector<Diagnostic> validate(const Scene& scene);
+
+}  // namespace lambent
