@@ -65,6 +65,7 @@ SceneSummary summarize(const ScenePtr& scene);
 // ---- pictures --------------------------------------------------------------------------------------------------------
 
 struct Stats {
+  /// Rays by kind. refraction counts totally reflected ones too: the refracted ray was asked for (as the SPD's tables count).
   struct {
     std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0;
   } rays;

@@ -69,9 +69,9 @@ SinCos<D> sincos_degrees(D degrees) {
   s = s * r;
   // Quarter turns: k mod 4 swaps and negates.
   const D quarter = k - D(4.0) * ((k * D(0.25) - D(0.375) + magic) - magic);  // 0, 1, 2, 3
-  const auto odd = (quarter == D(1.0)) | (quarter == D(3.0));
+  const auto odd = either(quarter == D(1.0), quarter == D(3.0));
   const D sine = select(odd, c, s), cosine = select(odd, s, c);
-  return {select(quarter >= D(2.0), -sine, sine), select((quarter == D(1.0)) | (quarter == D(2.0)), -cosine, cosine)};
+  return {select(quarter >= D(2.0), -sine, sine), select(either(quarter == D(1.0), quarter == D(2.0)), -cosine, cosine)};
 }
 
 }  // namespace LAMBENT_ISA

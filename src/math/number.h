@@ -18,6 +18,12 @@ template <class T> concept Scalar = std::is_floating_point_v<T> || std::is_integ
 template <Scalar T> constexpr T select(bool m, T a, T b) { return m ? a : b; }
 constexpr bool any(bool m) { return m; }
 constexpr bool all(bool m) { return m; }
+/// Logic on truths of one lane or of many: `&` and `|` would make ints of bools.
+template <class M> constexpr M both(M a, M b) { return a & b; }
+template <class M> constexpr M either(M a, M b) { return a | b; }
+template <class M, class... More> constexpr M both(M a, M b, More... more) { return both(both(a, b), more...); }
+template <> constexpr bool both(bool a, bool b) { return a && b; }
+template <> constexpr bool either(bool a, bool b) { return a || b; }
 template <Scalar T> constexpr T max(T a, T b) { return a > b ? a : b; }
 template <Scalar T> constexpr T min(T a, T b) { return a < b ? a : b; }
 template <Scalar T> constexpr T abs(T a) { return a < 0 ? -a : a; }

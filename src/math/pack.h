@@ -24,38 +24,34 @@ template <int Bytes> struct IntOfSize;
 template <> struct IntOfSize<4> { using type = std::int32_t; };
 template <> struct IntOfSize<8> { using type = std::int64_t; };
 
-/// One truth for each lane of a Pack<T, W>: all bits set, or none.
-template <class T, int W>
+/// One truth for each of W lanes: all bits of an Int set, or none. Int is as wide as the numbers that were compared.
+template <class Int, int W>
 struct Mask {
-  using Int = typename IntOfSize<sizeof(T)>::type;
   using Raw = typename RawPack<Int, W>::type;
   Raw v;
-  Mask() = default;
+  Mask() : v{} {}
   Mask(Raw raw) : v(raw) {}
   explicit Mask(bool all_lanes) : v(Raw{} - Int(all_lanes)) {}
-  bool operator[](int lane) const { return v[lane] != 0; }
-  void set(int lane, bool value) { v[lane] = value ? Int(-1) : Int(0); }
   friend Mask operator&(Mask a, Mask b) { return a.v & b.v; }
   friend Mask operator|(Mask a, Mask b) { return a.v | b.v; }
   friend Mask operator!(Mask a) { return ~a.v; }
 };
-template <class T, int W> bool any(Mask<T, W> m) {
-  typename Mask<T, W>::Int bits = 0;
-  for (int i = 0; i < W; ++i) bits |= m.v[i];
+template <class Int, int W> bool any(Mask<Int, W> m) {
+  std::uint64_t words[sizeof(m.v) / 8], bits = 0;
+  std::memcpy(words, &m.v, sizeof(m.v));
+  for (std::uint64_t word : words) bits |= word;
   return bits != 0;
 }
-template <class T, int W> bool all(Mask<T, W> m) { return !any(!m); }
+template <class Int, int W> bool all(Mask<Int, W> m) { return !any(!m); }
 
 template <class T, int W>
 struct Pack {
   using Raw = typename RawPack<T, W>::type;
-  static constexpr int lanes = W;
+  using Truth = Mask<typename IntOfSize<sizeof(T)>::type, W>;
   Raw v;
   Pack() : v{} {}
   Pack(Raw raw) : v(raw) {}
   Pack(T all_lanes) : v(Raw{} + all_lanes) {}
-  T operator[](int lane) const { return v[lane]; }
-  void set(int lane, T value) { v[lane] = value; }
   static Pack load(const T* from) {
     Pack result;
     std::memcpy(&result.v, from, sizeof(Raw));
@@ -68,14 +64,14 @@ struct Pack {
   friend Pack operator*(Pack a, Pack b) { return a.v * b.v; }
   friend Pack operator/(Pack a, Pack b) { return a.v / b.v; }
   friend Pack operator-(Pack a) { return -a.v; }
-  friend Mask<T, W> operator<(Pack a, Pack b) { return Mask<T, W>(typename Mask<T, W>::Raw(a.v < b.v)); }
-  friend Mask<T, W> operator>(Pack a, Pack b) { return Mask<T, W>(typename Mask<T, W>::Raw(a.v > b.v)); }
-  friend Mask<T, W> operator<=(Pack a, Pack b) { return Mask<T, W>(typename Mask<T, W>::Raw(a.v <= b.v)); }
-  friend Mask<T, W> operator>=(Pack a, Pack b) { return Mask<T, W>(typename Mask<T, W>::Raw(a.v >= b.v)); }
-  friend Mask<T, W> operator==(Pack a, Pack b) { return Mask<T, W>(typename Mask<T, W>::Raw(a.v == b.v)); }
+  friend Truth operator<(Pack a, Pack b) { return typename Truth::Raw(a.v < b.v); }
+  friend Truth operator>(Pack a, Pack b) { return typename Truth::Raw(a.v > b.v); }
+  friend Truth operator<=(Pack a, Pack b) { return typename Truth::Raw(a.v <= b.v); }
+  friend Truth operator>=(Pack a, Pack b) { return typename Truth::Raw(a.v >= b.v); }
+  friend Truth operator==(Pack a, Pack b) { return typename Truth::Raw(a.v == b.v); }
 };
 
-template <class T, int W> Pack<T, W> select(Mask<T, W> m, Pack<T, W> a, Pack<T, W> b) { return m.v ? a.v : b.v; }
+template <class T, int W> Pack<T, W> select(typename Pack<T, W>::Truth m, Pack<T, W> a, Pack<T, W> b) { return m.v ? a.v : b.v; }
 template <class T, int W> Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) { return select(a > b, a, b); }
 template <class T, int W> Pack<T, W> min(Pack<T, W> a, Pack<T, W> b) { return select(a < b, a, b); }
 template <class T, int W> Pack<T, W> abs(Pack<T, W> a) { return select(a < Pack<T, W>(T(0)), -a, a); }
@@ -98,8 +94,10 @@ template <class T, int W> inline constexpr int lanes_of<Pack<T, W>> = W;
 template <Scalar T> T lane(T a, int) { return a; }
 template <class T, int W> T lane(const Pack<T, W>& a, int i) { return a.v[i]; }
 inline bool lane(bool a, int) { return a; }
-template <class T, int W> bool lane(const Mask<T, W>& a, int i) { return a.v[i] != 0; }
-template <Scalar T> void set_lane(T& a, int, T value) { a = value; }
+template <class Int, int W> bool lane(const Mask<Int, W>& a, int i) { return a.v[i] != 0; }
+inline void set_lane(bool& a, int, bool value) { a = value; }
+template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) { a.v[i] = value ? Int(-1) : Int(0); }
+template <Scalar T> requires(!std::is_same_v<T, bool>) void set_lane(T& a, int, T value) { a = value; }
 template <class T, int W> void set_lane(Pack<T, W>& a, int i, T value) { a.v[i] = value; }
 
 /// The type of a comparison of two F.

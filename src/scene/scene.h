@@ -75,6 +75,7 @@ struct WhittedSettings {
   int max_depth = 5;
   bool shadows = true;
   bool colored_shadows = true;
+  bool trace_black_rays = false;
 };
 template <>
 inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
@@ -82,6 +83,8 @@ inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
     {"shadows", &WhittedSettings::shadows, {}, "", "Whether objects block light."},
     {"colored_shadows", &WhittedSettings::colored_shadows, {}, "",
      "Whether a transmitting surface lets light through, straight on, times its transmit; if not, it blocks as any other."},
+    {"trace_black_rays", &WhittedSettings::trace_black_rays, {}, "",
+     "Whether mirror rays are thrown from every reflecting or transmitting surface though their colour counts nothing, as the SPD benchmark counts rays."},
 };
 
 struct Material {

@@ -1,0 +1,319 @@
+// The command line. CLI11 takes it apart and writes the help; what is wrong is said in the program's own
+// words.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "commands.h"
+#include "console.h"
+#include "files.h"
+#include "lambent/lambent.h"
+#include "nearest.h"
+
+namespace lambent::app {
+
+namespace {
+
+/// Where the descriptions begin in the help; they stay within 80 columns, which CLI11 leaves to us.
+constexpr int help_column = 26;
+
+// ---- values
+// -----------------------------------------------------------------------------------------------------------
+
+/// All of `text` as a number; false where it is none.
+template <class Number>
+bool read_number(std::string_view text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
+CLI::Option* add_integer(CLI::App* command, const std::string& name, int& value, int min,
+                         const std::string& description) {
+  const auto read = [name, &value, min](const std::string& text) {
+    if (!read_number(text, value) || value < min)
+      throw usage_error(fmt::format("{} wants a whole number, {} or more, not '{}'", name, min, text));
+  };
+  return command->add_option_function<std::string>(name, read, description)->type_name("N");
+}
+
+void add_bits(CLI::App* command, int& bits) {
+  const auto read = [&bits](const std::string& text) {
+    if (text != "8" && text != "16") throw usage_error(fmt::format("--bits is 8 or 16, not '{}'", text));
+    bits = text == "8" ? 8 : 16;
+  };
+  command->add_option_function<std::string>("--bits", read, "Bits per channel of a PNG, 8 (default) or 16")
+      ->type_name("8|16");
+}
+
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// "640x480" as the scene file says it: "[640, 480]".
+std::string size_as_yaml(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  int width = 0, height = 0;
+  if (cross == std::string::npos || !read_number(std::string_view(text).substr(0, cross), width) ||
+      !read_number(std::string_view(text).substr(cross + 1), height) || width < 1 || height < 1)
+    throw usage_error(fmt::format("--size wants width x height in pixels, not '{}'", text),
+                      "for example --size 1280x720");
+  return fmt::format("[{}, {}]", width, height);
+}
+
+std::pair<std::string, std::string> split_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw usage_error(fmt::format("--set wants path.to.key=value, not '{}'", text),
+                      "for example --set image.samples=16");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+// ---- commands
+// ---------------------------------------------------------------------------------------------------------
+
+CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& description,
+                      const std::string& examples) {
+  CLI::App* command = program.add_subcommand(name, description);
+  command->footer("Examples:\n" + examples);
+  return command;
+}
+
+/// The shorthands of --set. They come before the --set options, so that these have the last word.
+struct Shorthands {
+  Settings settings;
+  std::vector<std::string> set;
+};
+
+CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& shorthands) {
+  CLI::App* command =
+      add_command(program, "render", "Render a scene or a model to a picture",
+                  "  lambent render scene.yaml\n"
+                  "  lambent render bunny.obj -o bunny.png -o bunny.exr --size 800x600\n"
+                  "  lambent render scene.yaml --samples 16 --set lights.key.point.intensity=4");
+  command->add_option("INPUT", render.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", render.outputs,
+                   "Picture to write, .png or .exr; may be repeated\n(default: INPUT's name with .png, here)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  const auto shorthand = [&](const std::string& key, std::string (*as_yaml)(const std::string&)) {
+    return [&shorthands, key, as_yaml](const std::string& text) {
+      shorthands.settings.emplace_back(key, as_yaml(text));
+    };
+  };
+  command
+      ->add_option_function<std::string>("--size", shorthand("image.size", size_as_yaml),
+                                         "Width and height in pixels")
+      ->type_name("WxH");
+  const auto samples = [&](const std::string& text) {
+    int number = 0;
+    if (!read_number(text, number) || number < 1)
+      throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
+    shorthands.settings.emplace_back("image.samples", text);
+  };
+  command->add_option_function<std::string>("--samples", samples, "Rays through each pixel")->type_name("N");
+  command
+      ->add_option_function<std::string>(
+          "--model", shorthand("illumination.model", [](const std::string& text) { return text; }),
+          "Illumination model ('lambent list models')")
+      ->type_name("NAME");
+  command
+      ->add_option("--set", shorthands.set,
+                   "Set anything that the scene file can say:\npath.to.key=value; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  add_integer(command, "--threads", render.threads, 0,
+              "Threads to work with (default 0: one per\nprocessor)");
+  add_integer(command, "--tile", render.tile, 1,
+              "Width of the tiles that threads take, in\npixels (default 32)");
+  command
+      ->add_option("--isa", render.isa,
+                   "Instruction set of the kernels: " + fmt::format("{}", fmt::join(available_isas(), ", ")))
+      ->type_name("NAME");
+  add_bits(command, render.bits);
+  command
+      ->add_option("--stats", render.stats,
+                   "Write ray counts, times and memory as JSON;\n- is standard output")
+      ->type_name("FILE");
+  command->add_flag("-q,--quiet", render.quiet, "Say nothing but errors");
+  return command;
+}
+
+CLI::App* add_check(CLI::App& program, CheckCommand& check) {
+  CLI::App* command = add_command(program, "check", "Say everything that is wrong with scenes or models",
+                                  "  lambent check scenes/*.yaml");
+  command->add_option("INPUT", check.inputs, "Scenes or models")->required()->type_name("");
+  return command;
+}
+
+CLI::App* add_info(CLI::App& program, InfoCommand& info) {
+  CLI::App* command = add_command(program, "info", "Say what is in a scene, a model or a picture",
+                                  "  lambent info scene.yaml\n  lambent info picture.exr --json");
+  command->add_option("INPUT", info.input, "A scene, a model, a .png or an .exr")->required()->type_name("");
+  command->add_flag("--json", info.json, "As JSON");
+  return command;
+}
+
+CLI::App* add_list(CLI::App& program, ListCommand& list) {
+  CLI::App* command = add_command(
+      program, "list", "List the models, lights, shapes and their parameters",
+      "  lambent list\n  lambent list models phong\n  lambent list --schema > lambent.schema.json");
+  command->add_option("TOPIC", list.topic, "models, lights, shapes, ...")->type_name("");
+  command->add_option("NAME", list.name, "One of the topic")->type_name("");
+  command->add_flag("--json", list.json, "As JSON");
+  command->add_flag("--schema", list.schema, "The JSON Schema of scene files");
+  command->add_flag("--manual", list.manual, "The manual of scene files, as Markdown");
+  return command;
+}
+
+CLI::App* add_diff(CLI::App& program, DiffCommand& diff) {
+  CLI::App* command =
+      add_command(program, "diff", "Compare two pictures: exit code 0 if alike, 1 if not",
+                  "  lambent diff a.exr b.exr\n  lambent diff a.png b.png -o where.png --tolerance 0.01");
+  command->add_option("A", diff.a, "A picture, .png or .exr")->required()->type_name("");
+  command->add_option("B", diff.b, "Another of the same size")->required()->type_name("");
+  command->add_option("-o,--output", diff.output, "Write |A - B| as a picture")->type_name("FILE");
+  const auto tolerance = [&](const std::string& text) {
+    if (!read_number(text, diff.tolerance) || !(diff.tolerance >= 0) || !std::isfinite(diff.tolerance))
+      throw usage_error(fmt::format("--tolerance wants a number, 0 or more, not '{}'", text));
+  };
+  command
+      ->add_option_function<std::string>("--tolerance", tolerance,
+                                         "Largest linear difference that counts as\nalike (default 0)")
+      ->type_name("T");
+  return command;
+}
+
+CLI::App* add_convert(CLI::App& program, ConvertCommand& convert) {
+  CLI::App* command = add_command(
+      program, "convert", "Make a scene file of a model, or convert a picture",
+      "  lambent convert bunny.obj bunny.yaml\n  lambent convert picture.exr picture.png --bits 16");
+  command->add_option("FROM", convert.from, "A model, a .png or an .exr")->required()->type_name("");
+  command->add_option("TO", convert.to, "A .yaml for a model, else a .png or an .exr")
+      ->required()
+      ->type_name("");
+  command->add_flag("--force", convert.force, "Overwrite a scene file that is there already");
+  add_bits(command, convert.bits);
+  return command;
+}
+
+// ---- what is wrong
+// ----------------------------------------------------------------------------------------------------
+
+/// A command line that CLI11 refused, in the program's words.
+InputError refused(const CLI::App& program, const CLI::ParseError& error) {
+  const std::vector<CLI::App*> chosen = program.get_subcommands();
+  const CLI::App& command = chosen.empty() ? program : *chosen.front();
+  const std::string name = chosen.empty() ? "lambent" : "lambent " + command.get_name();
+  const std::string try_help = fmt::format("'{} --help' says how it is used", name);
+  const auto hint_or_help = [&](const std::string& hint) { return hint.empty() ? try_help : hint; };
+
+  // What is not known comes first: a misspelt option is often why something else is missing.
+  std::string extra;
+  for (const std::string& word : program.remaining(true)) {
+    if (extra.empty() || (extra[0] != '-' && word.size() > 1 && word[0] == '-')) extra = word;
+  }
+  if (extra.size() > 1 && extra[0] == '-') {
+    const std::string option = extra.substr(0, extra.find('='));
+    std::vector<std::string> known;
+    for (const CLI::Option* one : command.get_options()) {
+      for (const std::string& long_name : one->get_lnames()) known.push_back("--" + long_name);
+    }
+    return usage_error(fmt::format("unknown option '{}'", option), hint_or_help(did_you_mean(option, known)));
+  }
+  if (!extra.empty() && chosen.empty()) {
+    std::vector<std::string> known;
+    for (const CLI::App* one : program.get_subcommands({})) known.push_back(one->get_name());
+    std::string hint = did_you_mean(extra, known);
+    std::error_code ignored;
+    if (hint.empty() && std::filesystem::is_regular_file(extra, ignored))
+      hint = fmt::format("did you mean 'lambent render {}'?", extra);
+    if (hint.empty()) hint = fmt::format("known are {}", fmt::join(known, ", "));
+    return usage_error(fmt::format("unknown command '{}'", extra), hint);
+  }
+  if (!extra.empty()) return usage_error(fmt::format("'{}' is one too many for '{}'", extra, name), try_help);
+  if (dynamic_cast<const CLI::RequiredError*>(&error)) {
+    if (chosen.empty()) return usage_error("no command was given", try_help);
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->get_required() && option->count() == 0)
+        return usage_error(fmt::format("{} is missing", option->get_name()), try_help);
+    }
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error)) {
+    for (const CLI::Option* option : command.get_options()) {
+      if (option->get_items_expected_max() == 1 && option->count() > 1)
+        return usage_error(fmt::format("{} is given more than once", option->get_name()), try_help);
+    }
+  }
+  return usage_error(error.what(), try_help);
+}
+
+}  // namespace
+
+Command parse_command_line(int argc, const char* const* argv) {
+  RenderCommand render;
+  Shorthands shorthands;
+  CheckCommand check;
+  InfoCommand info;
+  ListCommand list;
+  DiffCommand diff;
+  ConvertCommand convert;
+
+  CLI::App program("Lambent renders scenes and models with the classical lighting equation.", "lambent");
+  program.set_version_flag("--version", fmt::format("lambent {}", version()), "Print the version");
+  program.set_help_flag("-h,--help", "Print this help");
+  program.get_formatter()->column_width(help_column);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  program.get_formatter()->label("Subcommands", "Commands");
+  program.get_formatter()->label("Positionals", "Arguments");
+  program.get_formatter()->label("REQUIRED", "");
+  program.require_subcommand(1);
+  program.footer(
+      "Examples:\n"
+      "  lambent render bunny.obj              a picture of a model, lit and framed\n"
+      "  lambent convert bunny.obj mine.yaml   a scene file to start from\n"
+      "  lambent render mine.yaml -o mine.png --samples 16\n"
+      "  lambent list models                   the equations there are\n"
+      "'lambent COMMAND --help' says more about one command.\n"
+      "Exit codes: 0 done, 1 failed, 2 bad input or usage.");
+  const CLI::App* is_render = add_render(program, render, shorthands);
+  const CLI::App* is_check = add_check(program, check);
+  const CLI::App* is_info = add_info(program, info);
+  const CLI::App* is_list = add_list(program, list);
+  const CLI::App* is_diff = add_diff(program, diff);
+  add_convert(program, convert);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForVersion& call) {
+    return ShowText{fmt::format("{}\n", call.what())};
+  } catch (const CLI::CallForHelp&) {
+    return ShowText{program.help()};
+  } catch (const CLI::ParseError& error) {
+    if (argc < 2) print_error(program.help() + "\n");
+    throw refused(program, error);
+  }
+
+  if (*is_render) {
+    render.set = shorthands.settings;
+    for (const std::string& setting : shorthands.set) render.set.push_back(split_setting(setting));
+    return render;
+  }
+  if (*is_check) return check;
+  if (*is_info) return info;
+  if (*is_list) {
+    if (list.json + list.schema + list.manual > 1)
+      throw usage_error("--json, --schema and --manual exclude each other");
+    return list;
+  }
+  if (*is_diff) return diff;
+  return convert;
+}
+
+}  // namespace lambent::app

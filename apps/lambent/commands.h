@@ -1,0 +1,78 @@
+#pragma once
+// The commands of the program: for each, what the user may say, and the function that does it.
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace lambent::app {
+
+/// What the program tells its caller.
+enum ExitCode : int {
+  done = 0,
+  failed = 1,     ///< The work could not be done, or was interrupted; for `diff`: the pictures differ.
+  bad_input = 2,  ///< The input or the command line is wrong.
+};
+
+struct RenderCommand {
+  std::string input;
+  std::vector<std::string> outputs;  ///< Empty: the input's name with .png, in the current folder.
+  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
+  std::string stats;                                     ///< Empty: none; "-": standard output.
+  std::string isa;
+  int threads = 0;
+  int tile = 32;
+  int bits = 8;
+  bool quiet = false;
+};
+
+struct CheckCommand {
+  std::vector<std::string> inputs;
+};
+
+struct InfoCommand {
+  std::string input;
+  bool json = false;
+};
+
+struct ListCommand {
+  std::string topic, name;  ///< Empty: all.
+  bool json = false;
+  bool schema = false;
+  bool manual = false;
+};
+
+struct DiffCommand {
+  std::string a, b;
+  std::string output;  ///< Where the picture of the difference goes; empty: nowhere.
+  double tolerance = 0;
+};
+
+struct ConvertCommand {
+  std::string from, to;
+  bool force = false;
+  int bits = 8;
+};
+
+/// Nothing to compute: the text that --help or --version asks for.
+struct ShowText {
+  std::string text;
+};
+
+using Command = std::variant<ShowText, RenderCommand, CheckCommand, InfoCommand, ListCommand, DiffCommand,
+                             ConvertCommand>;
+
+/// Throws InputError where the command line is wrong.
+Command parse_command_line(int argc, const char* const* argv);
+
+// Each throws InputError or Failure where it cannot go on; main says so and chooses the exit code.
+ExitCode run(const ShowText& command);
+ExitCode run(const RenderCommand& command);
+ExitCode run(const CheckCommand& command);
+ExitCode run(const InfoCommand& command);
+ExitCode run(const ListCommand& command);
+ExitCode run(const DiffCommand& command);
+ExitCode run(const ConvertCommand& command);
+
+}  // namespace lambent::app

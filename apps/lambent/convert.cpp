@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "commands.h"
+#include "console.h"
+#include "files.h"
+#include "lambent/lambent.h"
+
+namespace lambent::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The library's scene names the model as if it stood beside it. Name it as seen from the scene's folder.
+std::string naming_model_from(const fs::path& folder, const fs::path& model, std::string scene) {
+  constexpr std::string_view before = "mesh: {file: ", after = "}}";
+  const std::size_t begin = scene.find(before) + before.size();
+  const std::size_t end = scene.find('\n', begin) - after.size();
+  // JSON is YAML, so a name in JSON's quotes is one in YAML's.
+  const nlohmann::json name = fs::relative(model, folder).generic_string();
+  return scene.replace(begin, end - begin,
+                       name.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+void scene_from_model(const ConvertCommand& command) {
+  std::error_code ignored;
+  if (fs::exists(command.to, ignored) && !command.force)
+    throw usage_error(fmt::format("'{}' is there already", command.to), "--force overwrites it");
+  check_output(command.to);
+  const fs::path folder = fs::absolute(command.to).parent_path();
+  write_text_file(command.to, naming_model_from(folder, command.from, scene_text_of_model(command.from)));
+}
+
+}  // namespace
+
+ExitCode run(const ConvertCommand& command) {
+  const std::string to = ending(command.to);
+  if (is_image_file(command.from) && is_image_file(command.to)) {
+    check_output(command.to);
+    const ReadImage picture = read_image(command.from);
+    write_image(command.to, picture.image, picture.metadata, {command.bits});
+  } else if (!is_image_file(command.from) && (to == ".yaml" || to == ".yml")) {
+    scene_from_model(command);
+  } else if (is_image_file(command.to)) {
+    throw usage_error(fmt::format("'{}' is not a picture", command.from),
+                      fmt::format("'lambent render {} -o {}' makes a picture of a scene or a model",
+                                  command.from, command.to));
+  } else {
+    throw usage_error(fmt::format("cannot make '{}' of '{}'", command.to, command.from),
+                      "a model becomes a scene (.yaml), a picture a picture (.png, .exr)");
+  }
+  return done;
+}
+
+}  // namespace lambent::app

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "files.h"
+#include "interrupt.h"
+#include "lambent/lambent.h"
+#include "progress.h"
+
+namespace lambent::app {
+
+namespace {
+
+constexpr std::size_t most_warnings = 20;
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string default_output(const std::string& input) {
+  return std::filesystem::path(input).filename().replace_extension(".png").string();
+}
+
+std::string stats_as_json(const Stats& stats) {
+  nlohmann::ordered_json json;
+  json["rays"] = {{"eye", stats.rays.eye},
+                  {"eye_hits", stats.rays.eye_hits},
+                  {"reflection", stats.rays.reflection},
+                  {"refraction", stats.rays.refraction},
+                  {"shadow", stats.rays.shadow}};
+  json["seconds"] = {{"parse", stats.seconds.parse},
+                     {"build", stats.seconds.build},
+                     {"render", stats.seconds.render},
+                     {"write", stats.seconds.write}};
+  json["peak_memory_bytes"] = stats.peak_memory_bytes;
+  json["threads"] = stats.threads;
+  json["isa"] = stats.isa;
+  json["version"] = version();
+  return json.dump(2) + "\n";
+}
+
+/// "950", "1.2 million": few digits, for people.
+std::string rounded(std::uint64_t count) {
+  if (count < 10'000) return fmt::format("{}", count);
+  if (count < 1'000'000) return fmt::format("{:.0f} thousand", double(count) / 1e3);
+  return fmt::format("{:.1f} million", double(count) / 1e6);
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+ExitCode run(const RenderCommand& command) {
+  // Whatever can be known to fail is looked at before the work, not after it.
+  const std::vector<std::string> outputs =
+      command.outputs.empty() ? std::vector<std::string>{default_output(command.input)} : command.outputs;
+  for (const std::string& output : outputs) check_image_output(output);
+  if (!command.stats.empty() && command.stats != "-") check_output(command.stats);
+
+  const Stopwatch total, parsing;
+  const ScenePtr scene = load_scene(command.input, {command.set});
+  const double parse_seconds = parsing.seconds();
+  if (!command.quiet) report(warnings(scene), most_warnings);
+
+  const Interruptible interruptible;
+  Progress progress(command.quiet);
+  RenderOptions options;
+  options.threads = command.threads;
+  options.tile_size = command.tile;
+  options.isa = command.isa;
+  options.progress = [&](double share) {
+    progress.update(share);
+    return !interrupted();
+  };
+  RenderResult result = render(scene, options);
+  progress.finish();
+  if (result.cancelled || interrupted()) throw Failure("interrupted; no file was written");
+
+  const Stopwatch writing;
+  for (const std::string& output : outputs)
+    write_image(output, result.image, result.metadata, {command.bits});
+  Stats& stats = result.stats;
+  stats.seconds.parse = parse_seconds;
+  stats.seconds.write = writing.seconds();
+  if (command.stats == "-") print(stats_as_json(stats));
+  else if (!command.stats.empty()) write_text_file(command.stats, stats_as_json(stats));
+
+  if (!command.quiet) {
+    const std::uint64_t rays =
+        stats.rays.eye + stats.rays.reflection + stats.rays.refraction + stats.rays.shadow;
+    print_error(fmt::format("{}: {} x {}, {}, {} rays\n", joined(outputs), result.image.width,
+                            result.image.height, duration(total.seconds()), rounded(rays)));
+  }
+  return done;
+}
+
+}  // namespace lambent::app

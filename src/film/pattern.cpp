@@ -1,0 +1,36 @@
+#include "film/pattern.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+namespace lambent {
+namespace {
+
+std::uint32_t reversed_bits(std::uint32_t a) {
+  std::uint32_t result = 0;
+  for (int i = 0; i < 32; ++i) result |= ((a >> i) & 1u) << (31 - i);
+  return result;
+}
+
+/// The x in [0, 1] below which the share p of the filter's weight lies, stretched around the pixel's centre.
+double spread(double p, Filter filter) {
+  if (filter == Filter::box) return p;
+  return 0.5 + (p < 0.5 ? sqrt(2 * p) - 1 : 1 - sqrt(2 * (1 - p)));
+}
+
+}  // namespace
+
+std::vector<Vec2<double>> sample_pattern(int samples, Filter filter) {
+  std::vector<std::uint32_t> order(samples);
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [](auto a, auto b) { return reversed_bits(a) < reversed_bits(b); });
+  std::vector<Vec2<double>> points(samples);
+  for (int row = 0; row < samples; ++row) {
+    const auto column = order[row];
+    points[column] = {spread((column + 0.5) / samples, filter), spread((row + 0.5) / samples, filter)};
+  }
+  return points;
+}
+
+}  // namespace lambent

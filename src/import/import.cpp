@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "import/model.h"
+
+namespace lambent {
+
+namespace {
+
+/// The formats, one line each.
+struct Format {
+  const char* ending;
+  Model (*read)(const std::string& path);
+};
+constexpr Format formats[] = {
+    {".obj", import_obj},
+    {".nff", import_nff},
+};
+
+const Format* format_of(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const auto found = std::find_if(std::begin(formats), std::end(formats),
+                                  [&](const Format& format) { return format.ending == ending; });
+  return found == std::end(formats) ? nullptr : found;
+}
+
+}  // namespace
+
+Model import_model(const std::string& path) {
+  if (const Format* format = format_of(path)) return format->read(path);
+  Diagnostic diagnostic;
+  diagnostic.place.file = path;
+  diagnostic.message = "the ending of '" + path + "' names no model format";
+  diagnostic.hint = "known endings: " + model_file_endings();
+  throw InputError(std::move(diagnostic));
+}
+
+bool is_model_file(const std::string& path) { return format_of(path) != nullptr; }
+
+std::string model_file_endings() {
+  std::string text;
+  for (const Format& format : formats) text += (text.empty() ? "" : ", ") + std::string(format.ending);
+  return text;
+}
+
+}  // namespace lambent

@@ -1,0 +1,53 @@
+#pragma once
+// Numbers the different keys of a mesh's corners in the order in which they come.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace lambent {
+
+/// A hash table that only grows; 20 to 40 bytes for each key.
+class VertexTable {
+ public:
+  using Key = std::array<std::uint32_t, 4>;
+
+  /// The number of `key`, counting from 0; a key not seen before gets the next number. At most 2^32 - 1 keys.
+  std::uint32_t index_of(const Key& key) {
+    if (2 * (keys_.size() + 1) > slots_.size()) grow();
+    std::size_t slot = hash(key) & (slots_.size() - 1);
+    while (slots_[slot] != empty && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
+    if (slots_[slot] == empty) {
+      slots_[slot] = std::uint32_t(keys_.size());
+      keys_.push_back(key);
+    }
+    return slots_[slot];
+  }
+  const std::vector<Key>& keys() const { return keys_; }
+  std::uint32_t size() const { return std::uint32_t(keys_.size()); }
+
+ private:
+  static constexpr std::uint32_t empty = ~0u;
+
+  static std::size_t hash(const Key& key) {
+    std::uint64_t h = 0x9e3779b97f4a7c15u;
+    for (const std::uint32_t part : key) {
+      h = (h ^ part) * 0xd6e8feb86659fd93u;
+      h ^= h >> 32;
+    }
+    return std::size_t(h);
+  }
+  void grow() {
+    slots_.assign(slots_.empty() ? 64 : 2 * slots_.size(), empty);
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
+      std::size_t slot = hash(keys_[i]) & (slots_.size() - 1);
+      while (slots_[slot] != empty) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = i;
+    }
+  }
+
+  std::vector<Key> keys_;
+  std::vector<std::uint32_t> slots_;  ///< Indices into keys_; a power of two of them, at most half full.
+};
+
+}  // namespace lambent

@@ -1,0 +1,82 @@
+#include "integrators/prepare.h"
+
+#include "film/pattern.h"
+
+namespace lambent {
+
+CameraRecord camera_record(const Camera& camera) {
+  const Vec3<double> forward = normalize(camera.target - camera.eye);
+  const Vec3<double> right = normalize(cross(forward, camera.up));
+  CameraRecord record{camera.eye, forward, right, cross(right, forward), 0, 0};
+  if (camera.projection == Projection::orthographic) {
+    record.spread_of_origins = camera.height / 2;
+  } else {
+    const auto [sine, cosine] = sincos_degrees(camera.fov / 2);
+    record.spread_of_directions = sine / cosine;
+  }
+  return record;
+}
+
+namespace {
+
+MaterialRecord material_record(const Material& material, ModelId scene_model) {
+  const ModelId model = material.model.value_or(scene_model);
+  MaterialRecord record{.ambient = material.ambient,
+                        .diffuse = material.diffuse,
+                        .specular = material.specular,
+                        .reflect = material.reflect,
+                        .transmit = material.transmit,
+                        .emission = material.emission,
+                        .shininess = material.shininess,
+                        .ior = material.ior,
+                        .own = {},
+                        .model = int(model),
+                        .emits = !is_black(material.emission),
+                        .reflects = !is_black(material.reflect),
+                        .transmits = !is_black(material.transmit)};
+  for (int i = 0; i < max_model_parameters && info(model).parameters[i].name; ++i) {
+    const ModelParameter& parameter = info(model).parameters[i];
+    const auto given = material.own.find(parameter.name);
+    record.own[i] = given == material.own.end() ? parameter.default_value : given->second;
+  }
+  return record;
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
+  auto prepared = std::make_unique<PreparedFrame>();
+  Frame& frame = prepared->frame;
+
+  prepared->world = build_world(scene);
+  frame.world = prepared->world.view();
+  frame.any_transmits = prepared->world.any_transmits;
+
+  frame.camera = camera_record(scene.camera);
+  const bool corners = scene.image.pattern == Pattern::corners;
+  frame.width = scene.image.width;
+  frame.height = scene.image.height;
+  frame.film_width = frame.width + corners;
+  frame.film_height = frame.height + corners;
+  prepared->pattern = corners ? std::vector<Vec2<double>>{{0, 0}} : sample_pattern(scene.image.samples, scene.image.filter);
+  frame.pattern = prepared->pattern.data();
+  frame.samples = int(prepared->pattern.size());
+  prepared->film.resize(std::size_t(frame.film_width) * frame.film_height * color_channels);
+  frame.film = prepared->film.data();
+
+  for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
+  frame.lights = prepared->lights.data();
+  frame.light_count = int(prepared->lights.size());
+  for (const Material& material : scene.materials) prepared->materials.push_back(material_record(material, scene.illumination.model));
+  frame.materials = prepared->materials.data();
+  for (int model = 0; model < model_count; ++model)
+    frame.fading[model] = {scene.illumination.attenuation.value_or(info(ModelId(model)).attenuation),
+                           scene.illumination.ambient_attenuation.value_or(info(ModelId(model)).ambient_attenuation)};
+  frame.ambient = scene.illumination.ambient;
+  frame.minimum_distance = scene.illumination.minimum_distance;
+  frame.background = scene.background;
+  frame.whitted = scene.whitted;
+  return prepared;
+}
+
+}  // namespace lambent

@@ -1,0 +1,70 @@
+// The whole way of the data: scene -> world and frame -> tiles -> film -> picture.
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "film/film.h"
+#include "integrators/kernels.h"
+#include "integrators/prepare.h"
+#include "lambent/lambent.h"
+#include "scene/scene.h"
+#include "scenefile/settings_text.h"
+#include "tiles.h"
+
+namespace lambent {
+namespace {
+
+class Clock {
+ public:
+  /// Seconds since the last call, or since the beginning.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+}  // namespace
+
+const char* version() { return LAMBENT_VERSION; }
+
+std::vector<std::string> available_isas() {
+  std::vector<std::string> names;
+  for (const Kernel* kernel : kernels()) names.emplace_back(kernel->isa);
+  return names;
+}
+
+RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
+  const Kernel& kernel = choose_kernel(options.isa);
+  const int threads = options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
+  Clock clock;
+  const auto prepared = prepare(*scene);
+  const double build = clock.lap();
+  const TileRun run = render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), options.progress);
+
+  RenderResult result;
+  result.image = develop(prepared->film, scene->image);
+  result.metadata = settings_metadata(*scene);
+  result.cancelled = run.cancelled;
+  const RayCounts& rays = run.counts;
+  result.stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow};
+  result.stats.seconds.build = build;
+  result.stats.seconds.render = clock.lap();
+  result.stats.peak_memory_bytes = peak_memory_bytes();
+  result.stats.threads = threads;
+  result.stats.isa = kernel.isa;
+  return result;
+}
+
+}  // namespace lambent

@@ -1,0 +1,277 @@
+#include "scenefile/autoscene.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "scenefile/format.h"
+#include "scenefile/names.h"
+
+namespace lambent {
+namespace {
+
+// ---- YAML
+
+/// A text in double quotes, whatever is in it.
+std::string yaml_quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      result += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
+    else result += c;
+  }
+  return result + '"';
+}
+
+/// Any value that a parameter may have, as one would write it.
+template <class T>
+std::string value_text(const T& value) {
+  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
+  else if constexpr (std::is_same_v<T, int>) return fmt::format("{}", value);
+  else return text_of(value);
+}
+
+/// "{eye: [0, 0, 5], fov: 40}": the parameters that are required or differ from their defaults.
+template <class S>
+std::string settings_text(const S& settings) {
+  static constexpr S defaults{};
+  std::string result;
+  for (const Parameter<S>& parameter : parameters_of<S>)
+    std::visit(
+        [&](auto member) {
+          if (!parameter.required && settings.*member == defaults.*member) return;
+          result += fmt::format("{}{}: {}", result.empty() ? "" : ", ", parameter.name,
+                                value_text(settings.*member));
+        },
+        parameter.member);
+  return "{" + result + "}";
+}
+
+std::string light_text(const Light& light) {
+  return with_light(light.light, [&](const auto& one) {
+    return fmt::format("{{name: {}, {}: {}}}", yaml_quoted(light.name),
+                       std::decay_t<decltype(one)>::info.name, settings_text(one));
+  });
+}
+
+// ---- what suits the model
+
+/// The ball around a box. Never without size, so that everything can be measured by it.
+struct Ball {
+  Vec3<double> center{0, 0, 0};
+  double radius = 1;
+};
+Ball ball_around(const Bounds& box) {
+  if (box.empty()) return {};
+  Ball ball{0.5 * box.lower + 0.5 * box.upper, 0.5 * length(box.upper - box.lower)};
+  // A single point has no size; nor has what is too small for the float coordinates of meshes to tell apart.
+  const double least = max(1e-6 * max_abs(ball.center), 1e-9);
+  if (ball.radius < least) ball.radius = max(1e-3 * max_abs(ball.center), 1e-3);
+  return ball;
+}
+
+/// Numbers for people: rounded to a hundred-thousandth of the model's size, far below a pixel.
+class Rounding {
+ public:
+  explicit Rounding(double size) : decimals_(5 - int(std::floor(std::log10(size)))) {}
+  double operator()(double value) const {
+    if (decimals_ <= 0) {  // the shortest form of such a number is exact
+      const double step = std::pow(10.0, -decimals_);
+      return std::round(value / step) * step;
+    }
+    const std::string text = fmt::format("{:.{}f}", value, decimals_);
+    double rounded = value;
+    std::from_chars(text.data(), text.data() + text.size(), rounded);
+    return rounded;
+  }
+  Vec3<double> operator()(const Vec3<double>& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
+
+ private:
+  int decimals_;
+};
+
+/// The directions of a picture in the world; unit vectors.
+struct Frame {
+  Vec3<double> right, up, backward;  ///< `backward` points to the eye.
+};
+Frame frame_of(const Vec3<double>& to_eye, const Vec3<double>& up) {
+  const Vec3<double> backward = normalize(to_eye), right = normalize(cross(up, backward));
+  return {right, cross(backward, right), backward};
+}
+
+/// The unit vector that is `azimuth` to the right of the camera, as the model sees it, and `elevation` above
+/// it; degrees.
+Vec3<double> direction(const Frame& frame, double azimuth, double elevation) {
+  const auto [sin_a, cos_a] = sincos_degrees(azimuth);
+  const auto [sin_e, cos_e] = sincos_degrees(elevation);
+  return sin_a * cos_e * frame.right + sin_e * frame.up + cos_a * cos_e * frame.backward;
+}
+
+constexpr double camera_azimuth = 30, camera_elevation = 18, camera_fov = 30;  // degrees
+/// What the model's bounds take of the picture, in its tighter direction: a margin of 10 % remains.
+constexpr double filled = 0.9;
+
+/// The nearest camera from three quarters that has the whole box in its picture, in the middle.
+Camera framing_camera(const Bounds& box, const Ball& ball, double aspect) {
+  const Frame front{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Frame frame = frame_of(direction(front, camera_azimuth, camera_elevation), front.up);
+  const auto [sin, cos] = sincos_degrees(camera_fov / 2);
+  const double tan_y = filled * sin / cos, tan_x = tan_y * aspect;
+  // With the eye at (x, y, d) along (right, up, backward) from the centre, a corner (a, b, c) is in the
+  // picture where |a - x| <= tan_x (d - c) and |b - y| <= tan_y (d - c). So x lies between the largest a +
+  // tan_x c less tan_x d and the least a - tan_x c plus tan_x d; the nearest d is where the two meet, for x
+  // or for y.
+  double a_max = -1e300, a_min = 1e300, b_max = -1e300, b_min = 1e300;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3<double> p{corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
+                         corner & 4 ? box.upper.z : box.lower.z};
+    const Vec3<double> way = p - ball.center;
+    const double a = dot(way, frame.right), b = dot(way, frame.up), c = dot(way, frame.backward);
+    a_max = max(a_max, a + tan_x * c), a_min = min(a_min, a - tan_x * c);
+    b_max = max(b_max, b + tan_y * c), b_min = min(b_min, b - tan_y * c);
+  }
+  const double distance = max((a_max - a_min) / (2 * tan_x), (b_max - b_min) / (2 * tan_y));
+  Camera camera;
+  camera.target = ball.center + (a_max + a_min) / 2 * frame.right + (b_max + b_min) / 2 * frame.up;
+  // A single point leaves the distance open.
+  camera.eye = camera.target + max(distance, ball.radius) * frame.backward;
+  camera.fov = camera_fov;
+  return camera;
+}
+
+/// One of the three lights, as seen from the model.
+struct Lamp {
+  const char* name;
+  double azimuth, elevation;  ///< Against the camera, degrees.
+  double brightness;          ///< On a white surface that faces it, at the model's centre.
+};
+constexpr Lamp lamps[] = {
+    {"key", -45, 40, 0.7},   // from the left and above: it shapes the model
+    {"fill", 50, 10, 0.25},  // from the other side: the key's shadows are not black
+    {"rim", 160, 50, 0.4},   // from behind: it parts the model from the background
+};
+constexpr double lamp_distance = 5;          // radii of the model, from its centre
+constexpr double ambient_brightness = 0.25;  // on a white surface at the centre
+constexpr double background_grey = 0.6;
+constexpr double floor_grey = 0.6;
+constexpr double floor_radius = 4;  // radii of the model
+
+/// The lights that shine on the model from around the camera, and the equation they are meant for.
+std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& rounded) {
+  const Vec3<double> to_eye = camera.eye - ball.center;
+  const Frame frame = frame_of(camera.eye - camera.target, camera.up);
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(
+      out,
+      "# The lecture's equation. As 1/r and 1/R depend on the unit of length, the ambient light is {} times\n"
+      "# the camera's distance, and each light below its brightness times its own distance.\n"
+      "illumination: {{model: {}, attenuation: {}, ambient: {}, ambient_attenuation: {}, minimum_distance: "
+      "{}}}\n",
+      ambient_brightness, info(ModelId::phong).name, text_of(attenuation_1_over_r),
+      text_of(grey(rounded(ambient_brightness * max(length(to_eye), ball.radius)))),
+      text_of(AmbientAttenuation::one_over_R), text_of(max(rounded(1e-3 * ball.radius), positive.min)));
+  fmt::format_to(out, "\n# {} radii from the model's centre.\nlights:\n", lamp_distance);
+  for (const Lamp& lamp : lamps) {
+    const double distance = lamp_distance * ball.radius;
+    PointLight light;
+    light.position = rounded(ball.center + distance * direction(frame, lamp.azimuth, lamp.elevation));
+    light.intensity = rounded(lamp.brightness * distance);
+    fmt::format_to(out, "  - {}\n", light_text({lamp.name, {}, light}));
+  }
+  return text;
+}
+
+/// The model's own lights, and the equation of the format they come from.
+std::string own_lights_text(const std::vector<Light>& lights) {
+  const double n = double(lights.size());
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "# The rules of the Standard Procedural Databases: nothing fades, and the ambient light is "
+                 "sqrt(n)/(2n) for n\n"
+                 "# lights, as is each of them.\n"
+                 "illumination: {{model: {}, attenuation: {}, ambient: {}, ambient_attenuation: {}}}\n"
+                 "integrator: {{whitted: {{max_depth: 5}}}}\n"
+                 "\nlights:\n",
+                 info(ModelId::phong).name, text_of(attenuation_none), text_of(grey(sqrt(n) / (2 * n))),
+                 text_of(AmbientAttenuation::none));
+  for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light));
+  return text;
+}
+
+/// Camera and lights stand apart from the model, and must be in reach too.
+void check_reach(const Ball& ball, const std::string& path) {
+  const double reach = max_abs(ball.center) + 2 * lamp_distance * ball.radius;
+  if (reach <= largest_coordinate) return;
+  Diagnostic diagnostic;
+  diagnostic.place.file = path;
+  diagnostic.message = fmt::format(
+      "the model is too large, or too far from the origin, to be lit from around it: "
+      "lights would stand {:.3g} scene units away",
+      reach);
+  diagnostic.hint = "choose a larger unit of length";
+  throw InputError(diagnostic);
+}
+
+}  // namespace
+
+std::string scene_text(const Model& model, const std::string& path, int width, int height) {
+  Bounds box;
+  for (const Shape& shape : model.shapes) {
+    const Bounds part = bounds(shape);
+    if (part.empty()) continue;
+    box.add(part.lower);
+    box.add(part.upper);
+  }
+  const Ball ball = ball_around(box);
+  if (box.empty()) box = {ball.center, ball.center};
+  const Rounding rounded(ball.radius);
+  const bool own_lights = !model.lights.empty();
+  if (!model.camera || !own_lights) check_reach(ball, path);
+
+  ImageSettings image{.width = width, .height = height, .samples = 16};
+  if (model.image) image = *model.image;
+  Camera camera =
+      model.camera ? *model.camera : framing_camera(box, ball, double(image.width) / image.height);
+  if (!model.camera) camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
+
+  std::string text;
+  const auto out = std::back_inserter(text);
+  const std::string file = yaml_quoted(std::filesystem::path(path).filename().string());
+  fmt::format_to(out, "# The model {} as `lambent render` shows it: a start for a scene of one's own.\n",
+                 file);
+  fmt::format_to(out, "lambent: 1\n\n");
+  fmt::format_to(out, "# {}\ncamera: {}\n",
+                 model.camera ? "The file's own view."
+                              : "From three quarters and a little above; all of the model is in the picture.",
+                 settings_text(camera));
+  fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}}}\n", image.width, image.height,
+                 image.samples, text_of(image.pattern));
+  if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
+  else if (!model.camera && !own_lights)
+    fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));
+  fmt::format_to(out, "\n{}",
+                 own_lights ? own_lights_text(model.lights) : studio_text(camera, ball, rounded));
+
+  fmt::format_to(
+      out, "\n# The model brings its materials.\nobjects:\n  - {{name: model, mesh: {{file: {}}}}}\n", file);
+  if (!model.camera && !own_lights) {
+    // A hair below the model, so that a flat one is not mixed up with its floor.
+    const Disc floor{rounded({ball.center.x, box.lower.y - 1e-3 * ball.radius, ball.center.z}),
+                     {0, 1, 0},
+                     rounded(floor_radius * ball.radius)};
+    const std::string color = text_of(grey(floor_grey));
+    fmt::format_to(out, "  - {{name: floor, disc: {}, material: {{ambient: {}, diffuse: {}}}}}\n",
+                   settings_text(floor), color, color);
+  }
+  return text;
+}
+
+}  // namespace lambent

@@ -1,0 +1,62 @@
+#pragma once
+// YAML as a tree in which every value knows where it was written.
+//
+// yaml-cpp takes the text apart; its own tree is not used, because it keeps the first of two equal keys in
+// silence and does not tell "3" from 3.
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lambent/diagnostics.h"
+
+namespace lambent {
+
+struct Node {
+  enum class Kind { nothing, text, list, mapping };
+  Kind kind = Kind::nothing;
+  bool quoted = false;          ///< Text in quotes: never a number.
+  bool shared = false;          ///< Shown in several places by aliases.
+  int source = 0;               ///< Index into Document::sources.
+  int line = 0, column = 0;     ///< From 1; 0 where it stands in no text.
+  std::string text;             ///< Of Kind::text.
+  std::string tag;              ///< "!!float" and the like, or empty.
+  std::vector<Node*> children;  ///< A list's elements; a mapping's keys and values, in turn.
+};
+
+/// A text that nodes come from: the scene file, or a value given on the command line.
+struct Source {
+  std::string name;
+  std::vector<std::string> lines;
+  bool is_file = true;  ///< If not, lines and columns mean nothing to people; the excerpt is the value.
+};
+
+struct Document {
+  std::deque<Node> nodes;  // a deque: growing it moves no node
+  std::vector<Source> sources;
+  Node* root = nullptr;
+  Document() = default;
+  Document(Document&&) = default;
+  Document& operator=(Document&&) = default;
+  Document(const Document&) = delete;
+  Document& operator=(const Document&) = delete;
+};
+
+/// Takes YAML (or JSON) apart. Throws InputError for text that is not YAML.
+Document parse_yaml(std::string_view text, const std::string& name);
+
+/// Puts a value into the document: "lights.key.point.intensity", "4". Keys that are missing on the way are
+/// created; an element of a list is named by its `name`, or by its index from 0. Throws InputError where the
+/// path leads nowhere.
+void apply_setting(Document& document, const std::string& path, const std::string& value);
+
+/// A remark about `node`, with the line it stands in.
+Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message,
+                         std::string hint = {});
+
+/// The value of a mapping's key, or null.
+const Node* value_of(const Node& mapping, std::string_view key);
+
+}  // namespace lambent

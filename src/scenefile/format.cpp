@@ -1,0 +1,365 @@
+#include "scenefile/format.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene/scene.h"
+#include "scenefile/names.h"
+#include "scenefile/shape_settings.h"
+
+namespace lambent {
+namespace {
+
+template <class S>
+struct AsField {
+  const Parameter<S>& parameter;
+  Field& field;
+
+  void operator()(double S::*member) const { set(FieldType::number, text_of(S{}.*member)); }
+  void operator()(int S::*member) const { set(FieldType::integer, std::to_string(S{}.*member)); }
+  void operator()(bool S::*member) const { set(FieldType::boolean, S{}.*member ? "true" : "false"); }
+  void operator()(Rgb S::*member) const { set(FieldType::color, text_of(S{}.*member)); }
+  void operator()(Vec3<double> S::*member) const {
+    set(parameter.kind == Kind::point       ? FieldType::point
+        : parameter.kind == Kind::direction ? FieldType::direction
+                                            : FieldType::vector,
+        text_of(S{}.*member));
+  }
+  void set(FieldType type, std::string default_value) const {
+    field.type = type;
+    if (!parameter.required) field.default_value = std::move(default_value);
+  }
+};
+
+template <class S>
+std::vector<Field> fields_of() {
+  std::vector<Field> fields;
+  for (const Parameter<S>& parameter : parameters_of<S>) {
+    Field field;
+    field.name = parameter.name;
+    field.range = parameter.range;
+    field.unit = parameter.unit;
+    field.sentence = parameter.sentence;
+    field.required = parameter.required;
+    std::visit(AsField<S>{parameter, field}, parameter.member);
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
+Field field(std::string name, FieldType type, std::string default_value, std::string sentence) {
+  Field result;
+  result.name = std::move(name);
+  result.type = type;
+  result.default_value = std::move(default_value);
+  result.sentence = std::move(sentence);
+  return result;
+}
+Field required(std::string name, FieldType type, std::string sentence) {
+  Field result = field(std::move(name), type, {}, std::move(sentence));
+  result.required = true;
+  return result;
+}
+Field choice(std::string name, std::vector<std::string> choices, std::string default_value,
+             std::string sentence) {
+  Field result = field(std::move(name), FieldType::choice, std::move(default_value), std::move(sentence));
+  result.choices = std::move(choices);
+  return result;
+}
+Field with(Field field, Range range, std::string unit) {
+  field.range = range;
+  field.unit = std::move(unit);
+  return field;
+}
+
+Section section(std::string name, std::string title, std::vector<Field> fields) {
+  Section result;
+  result.name = std::move(name);
+  result.title = std::move(title);
+  result.fields = std::move(fields);
+  return result;
+}
+
+std::vector<Field> operator+(std::vector<Field> a, const std::vector<Field>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+std::vector<Section> model_sections() {
+  std::vector<Section> models;
+  for (const ModelInfo& info : model_infos) {
+    Section model = section(info.name, info.title, {});
+    model.equation = info.equation;
+    model.source = info.source;
+    model.attenuation = text_of(info.attenuation);
+    model.ambient_attenuation = text_of(info.ambient_attenuation);
+    for (const ModelParameter& parameter : info.parameters) {
+      if (parameter.name == nullptr) break;
+      model.fields.push_back(
+          with(field(parameter.name, FieldType::number, text_of(parameter.default_value), parameter.sentence),
+               {parameter.min, parameter.max}, parameter.unit));
+    }
+    models.push_back(std::move(model));
+  }
+  return models;
+}
+
+template <class L>
+Section light_section() {
+  Section light = section(L::info.name, L::info.title, fields_of<L>());
+  light.equation = L::info.equation;
+  return light;
+}
+
+std::vector<Section> light_sections() {
+  return {
+#define LAMBENT_LIGHT(name, Struct) light_section<Struct>(),
+#include "lights/lights.def"
+#undef LAMBENT_LIGHT
+  };
+}
+
+std::vector<Section> shape_sections() {
+  const Field capped =
+      field("capped", FieldType::boolean, "false", "Whether the ends are closed with discs.");
+  return {
+      section("sphere", "a sphere", fields_of<Sphere>()),
+      section("plane", "a plane, infinite or a rectangle",
+              fields_of<Plane>() + std::vector{with(field("size", FieldType::extent, "",
+                                                          "Width and height of a rectangle about `point`; "
+                                                          "without it the plane is infinite. The width "
+                                                          "runs horizontally (along x where the plane itself "
+                                                          "is horizontal), the height at a right angle "
+                                                          "to it (along z for a floor)."),
+                                                    positive, "scene units")}),
+      section("disc", "a flat disc", fields_of<Disc>()),
+      section("box", "a box along the axes", fields_of<BoxSettings>()),
+      section("cylinder", "a cylinder, open at both ends unless capped",
+              fields_of<CylinderSettings>() + std::vector{capped}),
+      section("cone", "a cone or a frustum, open at both ends unless capped",
+              fields_of<Cone>() + std::vector{capped}),
+      section("polygon", "a flat polygon, convex or concave",
+              {with(required("vertices", FieldType::points,
+                             "Its corners in order, three at least, all in one plane; it faces where they "
+                             "run counter-clockwise."),
+                    {}, "scene units")}),
+      section("mesh", "triangles, from a file or written out",
+              {field("file", FieldType::file, "",
+                     "A model file, looked for beside the scene file. It brings its own materials."),
+               with(field("vertices", FieldType::points, "", "The corners; instead of `file`."), {},
+                    "scene units"),
+               field("triangles", FieldType::triangles, "",
+                     "Three indices of vertices each, from 0, counter-clockwise seen from outside; with "
+                     "`vertices`."),
+               field("normals", FieldType::directions, "",
+                     "One direction for each vertex, of any length; without them the faces are flat. [0, 0, "
+                     "0] stands for the face's own."),
+               field("uvs", FieldType::uvs, "", "Two texture coordinates for each vertex.")}),
+  };
+}
+
+Section material_section(const std::vector<Section>& models) {
+  Section material = section("material", "what a surface does with light",
+                             std::vector{choice("model", names_of(models), "",
+                                                "The illumination model; the scene's where not given.")} +
+                                 fields_of<Material>());
+  for (const Section& model : models)
+    for (const Field& own : model.fields)
+      if (find(material.fields, own.name) == nullptr) material.fields.push_back(own);
+  return material;
+}
+
+Format make_format() {
+  Format f;
+  f.models = model_sections();
+  f.lights = light_sections();
+  f.shapes = shape_sections();
+  f.material = material_section(f.models);
+  f.material_name = required("name", FieldType::name, "What objects call it; each name once.");
+  f.camera = section("camera", "where the picture is seen from",
+                     std::vector{choice("projection", names_of<Projection>(), text_of(Camera{}.projection),
+                                        "Whether distant things look smaller.")} +
+                         fields_of<Camera>());
+  const ImageSettings image;
+  f.image = section(
+      "image", "the picture's size and how its pixels are sampled",
+      std::vector{with(field("size", FieldType::image_size,
+                             fmt::format("[{}, {}]", image.width, image.height), "Width and height."),
+                       {1, 65536}, "pixels")} +
+          fields_of<ImageSettings>() +
+          std::vector{
+              choice("filter", names_of<Filter>(), text_of(image.filter),
+                     "How samples make a pixel: `box` is their mean, `tent` also weighs in those of the "
+                     "neighbours."),
+              choice(
+                  "pattern", names_of<Pattern>(), text_of(image.pattern),
+                  "Where samples lie: `stratified` spreads them evenly over each pixel, `corners` sends one "
+                  "ray through each corner of the pixels and takes the mean of four.")});
+  f.attenuation =
+      section("attenuation", "1 / (constant + linear r + quadratic r^2)", fields_of<AttenuationSettings>());
+  f.illumination = section(
+      "illumination", "the equation and its choices, for the whole scene",
+      std::vector{choice("model", names_of(f.models), info(Illumination{}.model).name,
+                         "The illumination model of materials that name none."),
+                  field("attenuation", FieldType::attenuation, "",
+                        "How lights fade with their distance r: `none`, `1/r`, `1/r^2`, or a mapping "
+                        "{constant, linear, quadratic} for "
+                        "1 / (constant + linear r + quadratic r^2). The model's own where not given."),
+                  choice("ambient_attenuation", names_of<AmbientAttenuation>(), "",
+                         "What the ambient term is divided by: nothing, or R, the distance travelled since "
+                         "the eye. The model's own where not given.")} +
+          fields_of<Illumination>());
+  Section whitted = section("whitted", "rays from the eye, mirrored and refracted on: Whitted's ray tracing",
+                            fields_of<WhittedSettings>());
+  whitted.source = "Whitted, An improved illumination model for shaded display, CACM 23(6), 1980";
+  f.integrators = {whitted};
+  f.integrator =
+      section("integrator", "how rays are followed",
+              {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on.")});
+  f.light = section("light", "a light",
+                    {field("name", FieldType::name, "",
+                           "What it is called, once only; `light 1` and so on where not given.")});
+  f.object =
+      section("object", "a shape, its material and its place",
+              {field("name", FieldType::name, "", "What it is called; `object 1` and so on where not given."),
+               field("material", FieldType::material, "",
+                     "A name from `materials`, or a material written out. Without it a mesh file keeps its "
+                     "own, everything else is plain grey."),
+               field("transform", FieldType::transform, "",
+                     "Steps that move the object, applied in the order written; a single step may stand "
+                     "without the list.")});
+  f.rotate = section("rotate", "a turn about an axis through the origin",
+                     std::vector{required("axis", FieldType::axis, "`x`, `y`, `z`, or a direction.")} +
+                         fields_of<RotateSettings>());
+  f.transform = section(
+      "transform", "one step",
+      {field("scale", FieldType::factors, "", "A factor, or one for each axis; not 0. Negative ones mirror."),
+       field("rotate", FieldType::section, "",
+             "A right-handed turn about an axis through the origin: {axis, degrees}."),
+       with(field("translate", FieldType::point, "", "How far to move along x, y and z."), {}, "scene units"),
+       field("matrix", FieldType::matrix, "",
+             "Three rows of four numbers: the linear part and, last in each row, the translation.")});
+  f.top = section(
+      "scene", "a scene file",
+      {with(required("lambent", FieldType::integer, "The version of the format."), {1, 1}, ""),
+       required("camera", FieldType::section, "Where the picture is seen from."),
+       field("image", FieldType::section, "", "The picture's size and how its pixels are sampled."),
+       field("illumination", FieldType::section, "", "The equation and its choices, for the whole scene."),
+       field("integrator", FieldType::section, "", "How rays are followed."),
+       with(field("background", FieldType::color, text_of(Scene{}.background),
+                  "What rays see that hit nothing."),
+            at_least_zero, ""),
+       field("lights", FieldType::sections, "", "The lights, in any number."),
+       field("materials", FieldType::sections, "", "Materials that objects refer to by name."),
+       field("objects", FieldType::sections, "", "What there is to see.")});
+  return f;
+}
+
+}  // namespace
+
+const Format& format() {
+  static const Format the_format = make_format();
+  return the_format;
+}
+
+Range limits(const Field& field) {
+  const bool length = field.type == FieldType::point || field.type == FieldType::direction ||
+                      field.type == FieldType::points || field.type == FieldType::directions ||
+                      field.type == FieldType::vector || field.unit == "scene units";
+  const double far = length ? largest_coordinate : largest_number;
+  return {max(field.range.min, -far), min(field.range.max, far)};
+}
+
+std::string describe(const Range& range) {
+  const bool below = std::isfinite(range.min) && range.min > -largest_coordinate;
+  const bool above = std::isfinite(range.max) && range.max < largest_coordinate;
+  if (below && above && range.min == range.max) return text_of(range.min);
+  if (below && above) return text_of(range.min) + " to " + text_of(range.max);
+  if (range.min == positive.min && !above) return "positive";
+  if (below) return "at least " + text_of(range.min);
+  if (above) return "at most " + text_of(range.max);
+  return {};
+}
+
+std::string type_name(FieldType type) {
+  switch (type) {
+    case FieldType::number:
+      return "number";
+    case FieldType::integer:
+      return "integer";
+    case FieldType::boolean:
+      return "boolean";
+    case FieldType::color:
+      return "color";
+    case FieldType::vector:
+      return "vector";
+    case FieldType::point:
+      return "point";
+    case FieldType::direction:
+      return "direction";
+    case FieldType::choice:
+      return "choice";
+    case FieldType::name:
+      return "text";
+    case FieldType::file:
+      return "file name";
+    case FieldType::image_size:
+      return "[width, height]";
+    case FieldType::extent:
+      return "[width, height]";
+    case FieldType::points:
+      return "list of points";
+    case FieldType::triangles:
+      return "list of [a, b, c]";
+    case FieldType::directions:
+      return "list of directions";
+    case FieldType::uvs:
+      return "list of [u, v]";
+    case FieldType::factors:
+      return "number or [x, y, z]";
+    case FieldType::axis:
+      return "x, y, z or direction";
+    case FieldType::matrix:
+      return "3 rows of 4 numbers";
+    case FieldType::attenuation:
+      return "choice or mapping";
+    case FieldType::material:
+      return "name or mapping";
+    case FieldType::transform:
+      return "step or list of steps";
+    case FieldType::section:
+      return "mapping";
+    case FieldType::sections:
+      return "list of mappings";
+  }
+  __builtin_unreachable();
+}
+
+std::vector<std::string> names_of(const std::vector<Field>& fields) {
+  std::vector<std::string> names;
+  for (const Field& one : fields) names.push_back(one.name);
+  return names;
+}
+std::vector<std::string> names_of(const std::vector<Section>& sections) {
+  std::vector<std::string> names;
+  for (const Section& one : sections) names.push_back(one.name);
+  return names;
+}
+const Field* find(const std::vector<Field>& fields, std::string_view name) {
+  for (const Field& one : fields)
+    if (one.name == name) return &one;
+  return nullptr;
+}
+
+const Section* find(const std::vector<Section>& sections, std::string_view name) {
+  for (const Section& one : sections)
+    if (one.name == name) return &one;
+  return nullptr;
+}
+
+std::string text_of(double value) { return fmt::format("{}", value); }
+std::string text_of(const Vec3<double>& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+std::string text_of(const Rgb& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+
+}  // namespace lambent

@@ -1,0 +1,104 @@
+// Loading: a scene file as it is, a model file by way of the scene that is made for it.
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+
+#include "import/text_file.h"
+#include "lambent/lambent.h"
+#include "scenefile/autoscene.h"
+#include "scenefile/document.h"
+#include "scenefile/nearest.h"
+#include "scenefile/read_scene.h"
+
+namespace lambent {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(const std::string& path) { return fs::path(path).parent_path().string(); }
+
+/// `name` stands for the text in messages; `path` says where files that it names are looked for, and names
+/// the scene.
+ScenePtr read(std::string_view yaml, const std::string& name, const std::string& path,
+              const LoadOptions& options, LoadedModels models = {}) {
+  Document document = parse_yaml(yaml, name);
+  std::vector<Diagnostic> wrong;
+  for (const auto& [key, value] : options.set) {
+    try {
+      apply_setting(document, key, value);
+    } catch (const InputError& error) {
+      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  auto scene = std::make_shared<Scene>();
+  try {
+    *scene = read_scene(document, folder_of(path), std::move(models));
+  } catch (const InputError& error) {
+    // What the file itself has to complain about comes first.
+    wrong.insert(wrong.begin(), error.diagnostics().begin(), error.diagnostics().end());
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  scene->name = fs::path(path).filename().string();
+  return scene;
+}
+
+/// Throws where there is no file to read at `path`.
+void must_exist(const std::string& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  Diagnostic diagnostic;
+  diagnostic.place.file = path;
+  if (!fs::exists(status)) {
+    diagnostic.message =
+        "cannot open '" + path + "': " + (error ? error.message() : "No such file or directory");
+    diagnostic.hint = suggest_file(path);
+  } else if (fs::is_directory(status)) {
+    diagnostic.message = "cannot open '" + path + "': it is a folder";
+  } else {
+    return;
+  }
+  throw InputError(diagnostic);
+}
+
+bool is_scene_file(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return ending == ".yaml" || ending == ".yml" || ending == ".json";
+}
+
+}  // namespace
+
+ScenePtr load_scene(const std::string& path, const LoadOptions& options) {
+  must_exist(path);
+  if (is_scene_file(path)) return read(read_file(path), path, path, options);
+  if (!is_model_file(path)) {
+    const std::string ending = fs::path(path).extension().string();
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = ending.empty() ? "the file's name has no ending that says what it is"
+                                        : "'" + ending + "' is no kind of file that Lambent reads";
+    diagnostic.hint = "scenes: .yaml, .yml, .json; models: " + model_file_endings();
+    throw InputError(diagnostic);
+  }
+  Model model = import_model(path);
+  const std::string text = scene_text(model, path);
+  LoadedModels models;
+  models.emplace(model_key(folder_of(path), fs::path(path).filename().string()), std::move(model));
+  return read(text, path + " (the scene made for it)", path, options, std::move(models));
+}
+
+ScenePtr parse_scene(std::string_view yaml, const std::string& name, const LoadOptions& options) {
+  return read(yaml, name, name, options);
+}
+
+std::string scene_text_of_model(const std::string& path) {
+  must_exist(path);
+  return scene_text(import_model(path), path);
+}
+
+const std::vector<Diagnostic>& warnings(const ScenePtr& scene) { return scene->warnings; }
+
+}  // namespace lambent

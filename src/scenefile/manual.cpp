@@ -1,0 +1,230 @@
+// docs/scene-format.md: prose around tables that are made from the format's sections.
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "lambent/lambent.h"
+#include "scenefile/format.h"
+#include "scenefile/nearest.h"
+
+namespace lambent {
+namespace {
+
+/// Text in a table's cell: a bar would end it.
+std::string cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string code(const std::string& text) { return text.empty() ? "" : "`" + cell(text) + "`"; }
+
+std::string table(const std::vector<Field>& fields) {
+  std::string text = "| key | value | unit | default | range | |\n|---|---|---|---|---|---|\n";
+  for (const Field& field : fields) {
+    const std::string range =
+        field.choices.empty() ? describe(field.range) : "`" + join(field.choices, "`, `") + "`";
+    text +=
+        fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", field.name, type_name(field.type), field.unit,
+                    field.required ? "**required**" : code(field.default_value), range, cell(field.sentence));
+  }
+  return text + "\n";
+}
+
+std::string kinds(const std::vector<Section>& sections) {
+  std::string text;
+  for (const Section& section : sections) {
+    text += fmt::format("### `{}`: {}\n\n", section.name, section.title);
+    if (!section.equation.empty()) text += "    " + section.equation + "\n\n";
+    if (!section.source.empty()) text += "Source: " + section.source + ".\n\n";
+    if (!section.fields.empty()) text += table(section.fields);
+  }
+  return text;
+}
+
+std::string models_overview(const std::vector<Section>& models) {
+  std::string text = "| model | | attenuation | ambient attenuation |\n|---|---|---|---|\n";
+  for (const Section& model : models)
+    text += fmt::format("| `{}` | {} | `{}` | `{}` |\n", model.name, cell(model.title), model.attenuation,
+                        model.ambient_attenuation);
+  return text + "\n";
+}
+
+std::string models_text(const std::vector<Section>& models) {
+  std::string text;
+  for (const Section& model : models) {
+    std::string title = model.title;
+    title[0] = char(std::toupper(static_cast<unsigned char>(title[0])));
+    text += fmt::format("### `{}`\n\n{}.\n\n    {}\n\n", model.name, title, model.equation);
+    if (!model.source.empty()) text += "Source: " + model.source + ".\n\n";
+    if (!model.fields.empty()) text += "Numbers of its own, given in the material:\n\n" + table(model.fields);
+  }
+  return text;
+}
+
+constexpr const char* introduction = R"(# The scene format
+
+<!-- Written by `lambent list --manual` from the tables of parameters in the source; change those, not this file. -->
+
+A scene is a YAML file: a camera, lights, materials and objects, and the equation that lights them. JSON is YAML, so
+programs can write scenes too. This is a complete one:
+
+```yaml
+lambent: 1
+camera: {eye: [0, 1.4, 5], target: [0, 0.6, 0], fov: 40}
+image: {size: [640, 360], samples: 16}
+illumination: {model: phong, attenuation: 1/r, ambient: [1, 1, 1], ambient_attenuation: 1/R}
+integrator: {whitted: {max_depth: 5}}
+background: "#304050"
+
+lights:
+  - {name: key, point: {position: [3, 4, 4], intensity: 8}}
+  - {name: fill, directional: {direction: [1, -1, -1], color: [0.6, 0.7, 1], intensity: 0.3}}
+
+materials:
+  - {name: red, ambient: [0.1, 0.02, 0.02], diffuse: [0.8, 0.1, 0.1], specular: 0.5, shininess: 32, reflect: 0.2}
+  - {name: floor, diffuse: 0.6}
+
+objects:
+  - {sphere: {center: [0, 0.6, 0], radius: 0.6}, material: red}
+  - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: floor}
+  - box: {min: [-0.5, 0, -0.5], max: [0.5, 1, 0.5]}
+    material: {diffuse: [0.1, 0.3, 0.8]}
+    transform: [{scale: 0.6}, {rotate: {axis: y, degrees: 30}}, {translate: [1.3, 0, 0.4]}]
+```
+
+Save it as `scene.yaml` and run `lambent render scene.yaml`. `lambent check scene.yaml` says everything that is wrong with it
+at once, with line and column. For completion and checks while you type, point your editor's YAML language server at
+`docs/lambent.schema.json`:
+
+```yaml
+# yaml-language-server: $schema=lambent.schema.json
+```
+
+Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [image](#image), [illumination](#illumination),
+[models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
+[transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
+
+## Conventions
+
+- Coordinates are right-handed. Lengths are in scene units, whatever those mean to you; angles are in degrees.
+- The camera looks from `eye` to `target`; `fov` is the vertical field of view. Row 0 of the picture is the top.
+- One sample per pixel goes through the pixel's centre. `max_depth` counts the ray from the eye as 1.
+- Colours are linear: 1 is white, 0.5 reflects half the light. A colour is `[r, g, b]`, one number for grey, or `"#rrggbb"` in
+  sRGB, as picked on a screen. The quotes are needed: in YAML an unquoted `#` begins a comment.
+- Numbers are decimal: `16`, `0.5`, `-1e-3`. Infinity and NaN are errors. Coordinates and lengths reach up to 1e10, all other
+  numbers up to 1e18, so that single precision can hold what is made of them.
+- Directions may have any length but zero. Positive lengths are at least 1e-10.
+- `true` and `false` are the only truth values.
+- Text that looks like a number needs quotes: `name: "5"`.
+- Anchors and aliases (`&a`, `*a`) work; merging with `<<` and tags such as `!!float` do not.
+- A key that is unknown, repeated, missing, empty, of the wrong type or out of range is an error. Nothing is skipped in silence.
+
+)";
+
+constexpr const char* illumination_text = R"(The colour I that a surface point sends towards the eye is
+
+    I = emission + Ka Ia / R  +  sum over lights of  Il / r [ diffuse + specular ]
+        + reflect * (colour along the mirror ray) + transmit * (colour along the refracted ray)
+
+with Ka the material's `ambient`, Ia the scene's `ambient`, Il a light's colour times its intensity, r its distance from the
+point, and R the distance the ray has travelled since the eye, over all bounces. What stands in the brackets is the model's
+affair; the factors 1/r and 1/R are the attenuations', and free to combine with any model. r and R count as at least
+`minimum_distance`. A light at infinity does not fade. A point in the shadow of a light gets neither diffuse nor specular
+light of it.
+
+)";
+
+constexpr const char* mesh_text =
+    R"(A mesh file is read once, however many objects show it, and takes memory once: objects with the same `file` are instances.
+An object without `material` takes the file's materials; one of the scene's `materials` that has the name of one of the
+file's stands in for it; an object's `material` replaces them all. A file's camera and lights are not used here.
+
+A rectangle's width runs horizontally: for a floor (`normal: [0, 1, 0]`) `size: [w, h]` is w along x and h along z; for a wall
+that faces z it is w along x and h along y. A box, a rectangle and a polygon become triangles. The caps of a
+cylinder or cone face outward.
+
+)";
+
+constexpr const char* command_line_text = R"(## Values from the command line
+
+`lambent render scene.yaml --set path.to.key=value` puts a value into the scene before it is read, as if it stood in the file:
+
+    --set image.samples=16
+    --set illumination.attenuation='{quadratic: 1}'
+    --set lights.key.point.intensity=4        the light that is called key
+    --set materials.0.diffuse='[1, 0, 0]'     the first material
+    --set background=#203040
+
+The steps of a path are keys; an element of a list is named by its `name`, or by its index from 0. Mappings that are missing
+on the way are created; elements of lists are not. The value is YAML.
+
+)";
+
+constexpr const char* model_files_text = R"(## Model files
+
+`lambent render model.obj` needs no scene: a camera, lights and a floor are chosen to suit the model. `lambent convert model.obj
+scene.yaml` writes that scene down, as a start for one of your own. Files that know a camera and lights of their own, such as
+NFF's, keep them.
+)";
+
+}  // namespace
+
+std::string scene_manual() {
+  const Format& f = format();
+  Section named = f.material;
+  named.fields.insert(named.fields.begin(), f.material_name);
+  std::string text = introduction;
+  text += "## Top level\n\n" + table(f.top.fields);
+  text +=
+      "## Camera\n\nThe camera looks from `eye` to `target`; `up` says which way is up in the picture and "
+      "need not be at a right "
+      "angle to the view, only not along it.\n\n" +
+      table(f.camera.fields);
+  text += "## Image\n\n" + table(f.image.fields);
+  text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";
+  text += "## Illumination\n\n" + std::string(illumination_text) + table(f.illumination.fields);
+  text += "An `attenuation` of one's own is a mapping; at least one of its numbers is not 0:\n\n" +
+          table(f.attenuation.fields);
+  text +=
+      "## Models\n\nWhat one light contributes at a point, per channel. N is the surface's unit normal on "
+      "the side of the eye, L "
+      "the unit vector to the light, V the one to where the ray came from, n the shininess; (x)+ is x where "
+      "positive, otherwise 0. "
+      "`Kd` is the material's `diffuse`, `Ks` its `specular`. No highlight where N.L <= 0.\n\nEach model "
+      "brings the attenuations "
+      "that hold where the scene does not say:\n\n" +
+      models_overview(f.models) + models_text(f.models);
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators);
+  text +=
+      "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
+      " - {name: lamp, point: "
+      "{position: [0, 3, 0], color: [1, 0.9, 0.8], intensity: 5}}\n```\n\n" +
+      table(f.light.fields) + "What arrives, before attenuation, is Il.\n\n" + kinds(f.lights);
+  text +=
+      "## Materials\n\n`materials` is a list of named materials. An object may also have one written out in "
+      "its place, without a "
+      "name.\n\n" +
+      table(named.fields);
+  text +=
+      "## Objects\n\n`objects` is a list. An object is one shape, with a material and a transform if you "
+      "like:\n\n```yaml\nobjects:\n  "
+      "- {name: ball, sphere: {center: [0, 1, 0], radius: 1}, material: red, transform: {translate: [2, 0, "
+      "0]}}\n```\n\n" +
+      table(f.object.fields);
+  text += "## Shapes\n\n" + std::string(mesh_text) + kinds(f.shapes);
+  text +=
+      "## Transforms\n\nA list of steps, each with one key, applied in the order written: `[{scale: 2}, "
+      "{translate: [1, 0, 0]}]` makes "
+      "twice as large first and moves then.\n\n" +
+      table(f.transform.fields) + "A `rotate`:\n\n" + table(f.rotate.fields);
+  text += command_line_text;
+  text += model_files_text;
+  return text;
+}
+
+}  // namespace lambent

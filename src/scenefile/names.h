@@ -1,0 +1,62 @@
+#pragma once
+// The words that scene files use for the choices of the scene.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lambent {
+
+/// The table of the choice E: what it is called, what it is.
+template <class E>
+inline constexpr int words_of = 0;
+template <>
+inline constexpr std::pair<const char*, Projection> words_of<Projection>[] = {
+    {"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}};
+template <>
+inline constexpr std::pair<const char*, Filter> words_of<Filter>[] = {{"box", Filter::box},
+                                                                      {"tent", Filter::tent}};
+template <>
+inline constexpr std::pair<const char*, Pattern> words_of<Pattern>[] = {{"stratified", Pattern::stratified},
+                                                                        {"corners", Pattern::corners}};
+template <>
+inline constexpr std::pair<const char*, AmbientAttenuation> words_of<AmbientAttenuation>[] = {
+    {"none", AmbientAttenuation::none}, {"1/R", AmbientAttenuation::one_over_R}};
+template <>
+inline constexpr std::pair<const char*, Attenuation> words_of<Attenuation>[] = {
+    {"none", attenuation_none}, {"1/r", attenuation_1_over_r}, {"1/r^2", attenuation_1_over_r2}};
+
+template <class E>
+std::vector<std::string> names_of() {
+  std::vector<std::string> names;
+  for (const auto& [word, value] : words_of<E>) names.push_back(word);
+  return names;
+}
+
+/// What `word` means, or nothing.
+template <class E>
+std::optional<E> meaning_of(std::string_view word) {
+  for (const auto& [name, value] : words_of<E>)
+    if (word == name) return value;
+  return {};
+}
+
+std::string text_of(double value);  // of format.h
+
+/// As one would write it.
+template <class E>
+requires requires { words_of<E>[0].first; }
+std::string text_of(const E& wanted) {
+  for (const auto& [name, value] : words_of<E>)
+    if (value == wanted) return name;
+  if constexpr (std::is_same_v<E, Attenuation>)
+    return "{constant: " + text_of(wanted.constant) + ", linear: " + text_of(wanted.linear) +
+           ", quadratic: " + text_of(wanted.quadratic) + "}";
+  return {};
+}
+
+}  // namespace lambent

@@ -1,0 +1,418 @@
+#include "scenefile/read_objects.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <unordered_map>
+
+#include "scenefile/nearest.h"
+#include "scenefile/shape_settings.h"
+#include "scenefile/shapes.h"
+
+namespace lambent {
+namespace {
+
+Place place_in(const Reader& reader, const Node& node) {
+  return diagnostic_at(reader.document(), node, {}).place;
+}
+
+/// `a` and `b`, two keys of one mapping, must not hold the same point.
+bool differ(Reader& reader, const Values& values, const char* a, const char* b, const Vec3<double>& at_a,
+            const Vec3<double>& at_b) {
+  if (max_abs(at_a - at_b) > 0) return true;
+  const Value* where = values.find(b);
+  reader.error(where->place(), fmt::format("'{}' and '{}' are the same point", a, b));
+  return false;
+}
+
+bool read_capped(Reader& reader, const Values& values) {
+  bool capped = false;
+  if (const Value* value = values.find("capped")) reader.boolean(*value, capped);
+  return capped;
+}
+
+/// A list of short lists of numbers, each handed to `take`.
+template <std::size_t N, class Take>
+bool rows(Reader& reader, const Value& value, const char* element, const Range& range, const Take& take) {
+  const auto list = reader.list(value, element);
+  if (!list) return false;
+  bool good = true;
+  for (const Value& one : *list) {
+    std::array<double, N> row{};
+    const Value named{one.node, nullptr, one.label + " of " + value.label};
+    if (reader.numbers(named, range, row)) take(row, named);
+    else good = false;
+  }
+  return good;
+}
+
+std::vector<Vec3<double>> points(Reader& reader, const Value& value, const char* element, const Field& field,
+                                 bool& good) {
+  std::vector<Vec3<double>> result;
+  good = rows<3>(reader, value, element, limits(field),
+                 [&](const std::array<double, 3>& p, const Value&) {
+                   result.push_back({p[0], p[1], p[2]});
+                 }) &&
+         good;
+  return result;
+}
+
+}  // namespace
+
+bool read_material(Reader& reader, const Value& value, const std::vector<Field>& fields,
+                   const std::string& what, const Illumination& illumination, Material& out) {
+  const auto values = reader.mapping(value, fields, what);
+  if (!values) return false;
+  const std::size_t before = reader.count();
+  out.place = place_in(reader, *value.node);
+  if (const Value* model = values->find("model")) {
+    std::string word;
+    if (reader.one_of(*model, names_of(format().models), word))
+      for (int i = 0; i < model_count; ++i)
+        if (word == model_infos[i].name) out.model = ModelId(i);
+  }
+  reader.table(*values, fields, out);
+  // Two models may use one name for parameters of different ranges: the material's own model decides.
+  const std::size_t chosen = std::size_t(int(out.model.value_or(illumination.model)));
+  for (std::size_t i = 0; i < format().models.size(); ++i) {
+    for (const Field& field : format().models[i].fields) {
+      const Value* own = values->find(field.name);
+      if (own == nullptr || (out.own.count(field.name) != 0 && i != chosen)) continue;
+      const Field* decisive = find(format().models[chosen].fields, field.name);
+      double number = 0;
+      if (reader.number(*own, limits(decisive != nullptr ? *decisive : field), number))
+        out.own[field.name] = number;
+    }
+  }
+  return reader.count() == before && !values->unknown_keys;
+}
+
+ObjectReader::ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models)
+    : reader_(reader), scene_(scene), folder_(std::move(folder)), loaded_(std::move(models)) {
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    by_name_.emplace(scene.materials[i].name, std::uint32_t(i));
+}
+
+void ObjectReader::add_shape(std::string name, Primitives primitives) {
+  shapes_.push_back(std::uint32_t(scene_.shapes.size()));
+  scene_.shapes.push_back({std::move(name), std::move(primitives), {}});
+}
+
+std::uint32_t ObjectReader::default_material() {
+  if (!default_material_) {
+    default_material_ = std::uint32_t(scene_.materials.size());
+    scene_.materials.emplace_back().name = "default";
+  }
+  return *default_material_;
+}
+
+std::optional<std::uint32_t> ObjectReader::material(const Value& value) {
+  if (value.node->kind == Node::Kind::mapping) {
+    Material material;
+    // Its name is the object's affair; a name of its own would be one that nothing can refer to.
+    std::vector<Field> fields = format().material.fields;
+    if (!read_material(reader_, value, fields, "a material", scene_.illumination, material)) return {};
+    material.name = fmt::format("material {}", ++inline_materials_);
+    scene_.materials.push_back(std::move(material));
+    return std::uint32_t(scene_.materials.size() - 1);
+  }
+  std::string name;
+  if (!reader_.text(value, "a material's name or a mapping", name)) return {};
+  if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, index] : by_name_) known.push_back(other);
+  reader_.error(*value.node, "there is no material '" + name + "'",
+                known.empty() ? "the scene has no list of materials" : suggestion(name, known));
+  return {};
+}
+
+std::string model_key(const std::string& folder, const std::string& file) {
+  const std::filesystem::path path =
+      std::filesystem::path(folder) / file;  // an absolute `file` stands for itself
+  return path.lexically_normal().string();
+}
+
+const ObjectReader::Placed* ObjectReader::model(const Value& file) {
+  std::string name;
+  if (!reader_.text(file, "a file's name", name)) return nullptr;
+  const std::string key = model_key(folder_, name);
+  const auto known = placed_.find(key);
+  if (known != placed_.end()) return known->second.good ? &known->second : nullptr;
+  Placed& placed = placed_[key];
+
+  std::optional<Model> model;
+  if (const auto loaded = loaded_.find(key); loaded != loaded_.end()) {
+    model = std::move(loaded->second);
+    loaded_.erase(loaded);
+  } else if (!is_model_file(name)) {
+    reader_.error(*file.node, "'" + name + "' is no model file that Lambent reads",
+                  "known endings: " + model_file_endings());
+    return nullptr;
+  } else {
+    std::error_code error;
+    if (const auto status = std::filesystem::status(key, error); !std::filesystem::exists(status)) {
+      const std::string reason = error ? error.message() : "No such file or directory";
+      reader_.error(*file.node, "cannot open '" + key + "': " + reason, suggest_file(key));
+      return nullptr;
+    } else if (std::filesystem::is_directory(status)) {
+      reader_.error(*file.node, "cannot open '" + key + "': it is a folder");
+      return nullptr;
+    }
+    try {
+      model = import_model(key);
+    } catch (const InputError& wrong) {
+      for (const Diagnostic& diagnostic : wrong.diagnostics()) reader_.error(*file.node, diagnostic);
+      return nullptr;
+    }
+  }
+  std::unordered_map<std::string, std::uint32_t> kept;
+  for (Material& material : model->materials) {
+    if (const auto replaced = by_name_.find(material.name); replaced != by_name_.end()) {
+      placed.materials.push_back(replaced->second);
+      continue;
+    }
+    placed.materials.push_back(std::uint32_t(scene_.materials.size()));
+    scene_.materials.push_back(std::move(material));
+  }
+  for (Shape& shape : model->shapes) {
+    placed.shapes.push_back(std::uint32_t(scene_.shapes.size()));
+    scene_.shapes.push_back(std::move(shape));
+  }
+  scene_.warnings.insert(scene_.warnings.end(), model->warnings.begin(), model->warnings.end());
+  placed.good = true;
+  return &placed;
+}
+
+bool ObjectReader::inline_mesh(const Values& values, const Section& section) {
+  const Value* vertices = values.find("vertices");
+  const Value* triangles = values.find("triangles");
+  const auto field = [&](const char* name) -> const Field& { return *find(section.fields, name); };
+  if (vertices == nullptr || triangles == nullptr) {
+    const Node& at = values.whole.key != nullptr ? *values.whole.key : *values.whole.node;
+    if (!values.unknown_keys)
+      reader_.error(at, vertices != nullptr    ? "a mesh with 'vertices' needs 'triangles'"
+                        : triangles != nullptr ? "a mesh with 'triangles' needs 'vertices'"
+                                               : "a mesh needs 'file', or 'vertices' and 'triangles'");
+    return false;
+  }
+  bool good = true;
+  Mesh mesh;
+  for (const Vec3<double>& p : points(reader_, *vertices, "vertex", field("vertices"), good))
+    mesh.vertices.push_back(cast<float>(p));
+  const std::size_t count = vertices->node->children.size();
+  const auto one_each = [&](const Value& value) {
+    if (value.node->kind != Node::Kind::list || value.node->children.size() == count) return;
+    reader_.error(*value.node, fmt::format("{} has {} elements, but there are {} vertices", value.label,
+                                           value.node->children.size(), count));
+    good = false;
+  };
+  if (const auto list = reader_.list(*triangles, "triangle")) {
+    if (list->empty()) {
+      reader_.error(*triangles->node, "'triangles' is an empty list", "a mesh has one triangle at least");
+      good = false;
+    }
+    for (const Value& one : *list) {
+      std::array<double, 3> corners{};
+      if (!reader_.numbers({one.node, nullptr, one.label + " of 'triangles'"}, {0, 4294967295.0}, corners)) {
+        good = false;
+        continue;
+      }
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Node& corner = *one.node->children[i];
+        if (corners[i] != std::floor(corners[i])) {
+          reader_.error(corner, fmt::format("an index of {} is {}, but must be a whole number", one.label,
+                                            corner.text));
+          good = false;
+        } else if (corners[i] >= double(count)) {
+          reader_.error(
+              corner,
+              fmt::format("{} refers to vertex {}, but there are only {}", one.label, corner.text, count),
+              count > 0 ? fmt::format("indices are 0 to {}", count - 1) : "");
+          good = false;
+        } else {
+          triangle[i] = std::uint32_t(corners[i]);
+        }
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  } else {
+    good = false;
+  }
+  if (const Value* normals = values.find("normals")) {
+    for (const Vec3<double>& n : points(reader_, *normals, "normal", field("normals"), good))
+      mesh.normals.push_back(cast<float>(max_abs(n) > 0 ? normalize(n) : n));
+    one_each(*normals);
+  }
+  if (const Value* uvs = values.find("uvs")) {
+    good = rows<2>(reader_, *uvs, "uv", limits(field("uvs")),
+                   [&](const std::array<double, 2>& uv, const Value&) {
+                     mesh.uvs.push_back({float(uv[0]), float(uv[1])});
+                   }) &&
+           good;
+    one_each(*uvs);
+  }
+  if (good) add_shape("mesh", std::move(mesh));
+  return good;
+}
+
+bool ObjectReader::mesh(const Values& values, const Section& section, Object&) {
+  const Value* file = values.find("file");
+  if (file == nullptr) return inline_mesh(values, section);
+  bool good = true;
+  for (const Value& other : values.values) {
+    if (other.key->text == "file") continue;
+    reader_.error(*other.key, other.label + " stands beside 'file'",
+                  "a mesh comes from a file or is written out, not both");
+    good = false;
+  }
+  file_ = model(*file);
+  if (file_ == nullptr || !good) return false;
+  shapes_ = file_->shapes;
+  return true;
+}
+
+bool ObjectReader::shape(const Section& section, const Value& value, Object& object) {
+  const auto values = reader_.mapping(value, section.fields, "a " + section.name);
+  if (!values) return false;
+  const std::size_t before = reader_.count();
+  const auto read = [&](auto& settings) {
+    reader_.table(*values, section.fields, settings);
+    return reader_.count() == before && !values->unknown_keys &&
+           std::all_of(section.fields.begin(), section.fields.end(), [&](const Field& field) {
+             return !field.required || values->find(field.name) != nullptr;
+           });
+  };
+  if (section.name == "sphere") {
+    Sphere sphere;
+    if (!read(sphere)) return false;
+    add_shape(section.name, std::vector<Sphere>{sphere});
+  } else if (section.name == "disc") {
+    Disc disc;
+    if (!read(disc)) return false;
+    add_shape(section.name, std::vector<Disc>{disc});
+  } else if (section.name == "plane") {
+    Plane plane;
+    std::array<double, 2> size{};
+    const Value* extent = values->find("size");
+    if (extent != nullptr) reader_.numbers(*extent, limits(*find(section.fields, "size")), size);
+    if (!read(plane)) return false;
+    if (extent != nullptr) add_shape("rectangle", rectangle(plane, size[0], size[1]));
+    else add_shape(section.name, std::vector<Plane>{plane});
+  } else if (section.name == "box") {
+    BoxSettings settings;
+    if (!read(settings)) return false;
+    const char* axes[] = {"x", "y", "z"};
+    const double lower[] = {settings.min.x, settings.min.y, settings.min.z},
+                 upper[] = {settings.max.x, settings.max.y, settings.max.z};
+    for (int i = 0; i < 3; ++i)
+      if (!(lower[i] < upper[i]))
+        reader_.error(values->find("max")->place(),
+                      fmt::format("{} of 'max' is {}, but must be more than {}, that of 'min'", axes[i],
+                                  upper[i], lower[i]));
+    if (reader_.count() != before) return false;
+    add_shape(section.name, box(settings.min, settings.max));
+  } else if (section.name == "cylinder" || section.name == "cone") {
+    Cone cone;
+    const bool capped = read_capped(reader_, *values);
+    if (section.name == "cylinder") {
+      CylinderSettings settings;
+      if (!read(settings)) return false;
+      cone = {settings.from, settings.to, settings.radius, settings.radius};
+    } else {
+      if (!read(cone)) return false;
+      if (cone.radius_from < positive.min && cone.radius_to < positive.min)
+        reader_.error(values->find("radius_to")->place(), "'radius_from' and 'radius_to' are both 0",
+                      "one of them may be");
+    }
+    differ(reader_, *values, "from", "to", cone.from, cone.to);
+    if (reader_.count() != before) return false;
+    add_shape(section.name, std::vector<Cone>{cone});
+    if (capped) add_shape("caps", caps(cone));
+  } else if (section.name == "polygon") {
+    const Value* vertices = values->find("vertices");
+    if (vertices == nullptr) return false;
+    bool good = true;
+    const auto corners = points(reader_, *vertices, "vertex", *find(section.fields, "vertices"), good);
+    if (!good || values->unknown_keys) return false;
+    if (corners.size() < 3) {
+      reader_.error(vertices->place(),
+                    fmt::format("a polygon needs 3 vertices at least, not {}", corners.size()));
+      return false;
+    }
+    const double uneven = unevenness(corners);
+    if (uneven < 0) {
+      reader_.error(vertices->place(), "this polygon has no area");
+      return false;
+    }
+    if (uneven > 1e-4) {
+      reader_.error(
+          vertices->place(),
+          fmt::format("this polygon is not flat: its vertices lie up to {:.2g} of its size off their plane",
+                      uneven),
+          "up to 1e-4 is allowed; for a curved surface use a mesh");
+      return false;
+    }
+    add_shape(section.name, polygon(corners));
+  } else {
+    return mesh(*values, section, object);
+  }
+  return reader_.count() == before;
+}
+
+void ObjectReader::object(const Value& value, const std::string& default_name) {
+  const Format& f = format();
+  std::vector<Field> fields = f.object.fields;
+  for (const Section& one : f.shapes) {
+    Field& field = fields.emplace_back();
+    field.name = one.name;
+    field.type = FieldType::section;
+  }
+  const auto values = reader_.mapping(value, fields, "an object");
+  if (!values) return;
+
+  Object object;
+  object.name = default_name;
+  object.place = place_in(reader_, *value.node);
+  if (const Value* name = values->find("name")) reader_.text(*name, "text", object.name);
+  if (const Value* transform = values->find("transform"))
+    read_transform(reader_, *transform, object.world_from_object);
+
+  shapes_.clear();
+  file_ = nullptr;
+  const Value* first = nullptr;
+  bool good = true;
+  for (const Value& one : values->values) {
+    const auto section = std::find_if(f.shapes.begin(), f.shapes.end(),
+                                      [&](const Section& s) { return s.name == one.key->text; });
+    if (section == f.shapes.end()) continue;
+    if (first != nullptr) {
+      reader_.error(*one.key, one.label + " stands beside " + first->label,
+                    "an object is one shape; make it a second object");
+      good = false;
+    } else {
+      first = &one;
+    }
+    good = shape(*section, one, object) && good;
+  }
+  if (first == nullptr && !values->unknown_keys)
+    reader_.error(*value.node, "this object has no shape", "a shape is one of: " + join(names_of(f.shapes)));
+
+  std::optional<std::uint32_t> own;
+  if (const Value* one = values->find("material")) {
+    own = material(*one);
+    if (!own) good = false;
+  }
+  if (!good || first == nullptr) return;
+  if (file_ != nullptr)
+    object.materials = own ? std::vector(file_->materials.size(), *own) : file_->materials;
+  else object.materials = {own ? *own : default_material()};
+  for (const std::uint32_t index : shapes_) {
+    object.shape = index;
+    scene_.objects.push_back(object);
+  }
+}
+
+}  // namespace lambent

@@ -1,0 +1,56 @@
+#pragma once
+// The objects of a scene file: shapes, their materials and transforms.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenefile/read_scene.h"
+#include "scenefile/reader.h"
+
+namespace lambent {
+
+/// Reads objects one after the other; shared model files are loaded and stored once.
+class ObjectReader {
+ public:
+  /// The scene's lights and materials have been read already.
+  ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models);
+
+  void object(const Value& value, const std::string& default_name);
+
+ private:
+  /// Where a model file went: its shapes, and its materials as the scene has them.
+  struct Placed {
+    bool good = false;
+    std::vector<std::uint32_t> shapes, materials;
+  };
+
+  bool shape(const Section& section, const Value& value, Object& object);
+  bool mesh(const Values& values, const Section& section, Object& object);
+  bool inline_mesh(const Values& values, const Section& section);
+  const Placed* model(const Value& file);
+  std::optional<std::uint32_t> material(const Value& value);
+  std::uint32_t default_material();
+  void add_shape(std::string name, Primitives primitives);
+
+  Reader& reader_;
+  Scene& scene_;
+  std::string folder_;
+  LoadedModels loaded_;
+  std::map<std::string, Placed> placed_;          // by model_key
+  std::map<std::string, std::uint32_t> by_name_;  // the scene's own materials
+  std::optional<std::uint32_t> default_material_;
+  std::vector<std::uint32_t> shapes_;  // of the object at hand
+  const Placed* file_ = nullptr;       // likewise, if it is a model file
+  std::size_t inline_materials_ = 0;
+};
+
+/// The transform of `value`: one step or a list of steps. False if something was wrong.
+bool read_transform(Reader& reader, const Value& value, Transform& out);
+
+/// One entry of `materials`, or one written out in an object.
+bool read_material(Reader& reader, const Value& value, const std::vector<Field>& fields,
+                   const std::string& what, const Illumination& illumination, Material& out);
+
+}  // namespace lambent

@@ -1,0 +1,290 @@
+#include "scenefile/read_scene.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "scenefile/nearest.h"
+#include "scenefile/read_objects.h"
+#include "scenefile/reader.h"
+#include "scenefile/shape_settings.h"
+
+namespace lambent {
+namespace {
+
+void warn(const Reader& reader, Scene& scene, const Node& at, std::string message, std::string hint) {
+  Diagnostic warning = diagnostic_at(reader.document(), at, std::move(message), std::move(hint));
+  warning.severity = Severity::warning;
+  scene.warnings.push_back(std::move(warning));
+}
+
+/// Where the way from `eye` to `target` is zero, or `up` lies along it, there is no picture.
+void check_view(Reader& reader, const Values& values, const Camera& camera) {
+  const Vec3<double> way = camera.target - camera.eye;
+  const Value* target = values.find("target");
+  if (target == nullptr || values.find("eye") == nullptr) return;
+  if (!(length(way) > 0)) {
+    reader.error(target->place(), "'eye' and 'target' are the same point",
+                 "the camera looks from one to the other");
+    return;
+  }
+  // The sine of the angle between the two; what is smaller leaves no digits for the picture's upright.
+  if (length(cross(normalize(way), normalize(camera.up))) > 1e-6) return;
+  const Value* up = values.find("up");
+  reader.error(up != nullptr ? up->place() : target->place(),
+               "'up' lies along the way from 'eye' to 'target'",
+               "to look straight up or down give another 'up', such as [0, 0, -1]");
+}
+
+void read_camera(Reader& reader, const Value& value, Scene& scene) {
+  const auto& fields = format().camera.fields;
+  const auto values = reader.mapping(value, fields, "the camera");
+  if (!values) return;
+  const bool good = reader.table(*values, fields, scene.camera);
+  if (const Value* projection = values->find("projection"))
+    reader.choice(*projection, scene.camera.projection);
+  if (good) check_view(reader, *values, scene.camera);
+  const bool flat = scene.camera.projection == Projection::orthographic;
+  if (const Value* unused = values->find(flat ? "fov" : "height"))
+    warn(reader, scene, *unused->key,
+         fmt::format("{} has no effect: the camera is {}", unused->label, text_of(scene.camera.projection)),
+         flat ? "the size of an orthographic picture is its 'height'"
+              : "the size of a perspective picture is its 'fov'");
+}
+
+void read_image(Reader& reader, const Value& value, ImageSettings& image) {
+  constexpr double most_pixels = 268435456;  // 2^28: three floats each are 3 GiB
+  const auto& fields = format().image.fields;
+  const auto values = reader.mapping(value, fields, "the image");
+  if (!values) return;
+  reader.table(*values, fields, image);
+  if (const Value* filter = values->find("filter")) reader.choice(*filter, image.filter);
+  if (const Value* pattern = values->find("pattern")) reader.choice(*pattern, image.pattern);
+  const Value* size = values->find("size");
+  if (size == nullptr) return;
+  const auto sides = reader.list(*size, "side");
+  if (!sides) return;
+  if (sides->size() != 2) {
+    reader.error(*size->node, fmt::format("'size' must be [width, height], not a list of {}", sides->size()));
+    return;
+  }
+  const Range range = limits(*find(fields, "size"));
+  Value width = (*sides)[0], height = (*sides)[1];
+  width.label = "the width";
+  height.label = "the height";
+  width.key = height.key = size->node;
+  const bool good = reader.integer(width, range, image.width);
+  if (!reader.integer(height, range, image.height) || !good) return;
+  if (double(image.width) * image.height > most_pixels)
+    reader.error(*size->node, fmt::format("an image of {} by {} is too large", image.width, image.height),
+                 fmt::format("{} pixels at most", std::int64_t(most_pixels)));
+}
+
+void read_attenuation(Reader& reader, const Value& value, Illumination& illumination) {
+  if (value.node->kind != Node::Kind::mapping) {
+    Attenuation word;
+    const bool text = value.node->kind == Node::Kind::text;
+    if (!text) {
+      reader.error(value.place(),
+                   value.label + (value.node->kind == Node::Kind::nothing
+                                      ? " has no value"
+                                      : " must be a word or a mapping, not a list"),
+                   "it is one of: " + join(names_of<Attenuation>()) + ", {constant, linear, quadratic}");
+      return;
+    }
+    if (reader.choice(value, word)) illumination.attenuation = word;
+    return;
+  }
+  const auto& fields = format().attenuation.fields;
+  const auto values = reader.mapping(value, fields, "an attenuation");
+  if (!values) return;
+  AttenuationSettings settings;
+  if (!reader.table(*values, fields, settings) || values->unknown_keys) return;
+  if (settings.constant == 0 && settings.linear == 0 && settings.quadratic == 0) {
+    reader.error(value.place(), "'constant', 'linear' and 'quadratic' are all 0",
+                 "for lights that do not fade write: attenuation: none");
+    return;
+  }
+  illumination.attenuation = Attenuation{settings.constant, settings.linear, settings.quadratic};
+}
+
+void read_illumination(Reader& reader, const Value& value, Illumination& illumination) {
+  const auto& fields = format().illumination.fields;
+  const auto values = reader.mapping(value, fields, "the illumination");
+  if (!values) return;
+  reader.table(*values, fields, illumination);
+  if (const Value* model = values->find("model")) {
+    std::string word;
+    if (reader.one_of(*model, names_of(format().models), word))
+      for (int i = 0; i < model_count; ++i)
+        if (word == model_infos[i].name) illumination.model = ModelId(i);
+  }
+  if (const Value* attenuation = values->find("attenuation"))
+    read_attenuation(reader, *attenuation, illumination);
+  if (const Value* ambient = values->find("ambient_attenuation")) {
+    AmbientAttenuation word{};
+    if (reader.choice(*ambient, word)) illumination.ambient_attenuation = word;
+  }
+}
+
+void read_integrator(Reader& reader, const Value& value, WhittedSettings& whitted) {
+  const auto values = reader.mapping(value, format().integrator.fields, "the integrator");
+  if (!values) return;
+  if (values->values.empty() && !values->unknown_keys)
+    reader.error(value.place(), "'integrator' names none",
+                 "it is one of: " + join(names_of(format().integrators)));
+  const Value* settings = values->find("whitted");
+  if (settings == nullptr) return;
+  const auto& fields = find(format().integrators, "whitted")->fields;
+  if (const auto inner = reader.mapping(*settings, fields, "the integrator whitted"))
+    reader.table(*inner, fields, whitted);
+}
+
+/// A name that may be given once only; the default where none is given.
+std::string unique_name(Reader& reader, const Values& values, std::string default_name,
+                        std::map<std::string, int>& taken) {
+  std::string name = std::move(default_name);
+  const Value* given = values.find("name");
+  if (given == nullptr || !reader.text(*given, "text", name)) return name;
+  const auto [first, is_new] = taken.emplace(name, given->node->line);
+  if (!is_new)
+    reader.error(*given->node, "the name '" + name + "' is taken",
+                 first->second > 0 ? fmt::format("the first is in line {}; choose another", first->second)
+                                   : "choose another");
+  return name;
+}
+
+template <class L>
+void read_light_of(Reader& reader, const Value& value, const Section& section, AnyLight& out) {
+  const auto values = reader.mapping(value, section.fields, "a " + section.name + " light");
+  if (!values) return;
+  L light;
+  const bool good = reader.table(*values, section.fields, light);
+  // Every light with a position and a target shines from one to the other.
+  if constexpr (requires { light.target - light.position; }) {
+    const Value* target = values->find("target");
+    if (good && target != nullptr && values->find("position") != nullptr && light.target == light.position)
+      reader.error(target->place(), "'position' and 'target' are the same point",
+                   "the light shines from one to the other");
+  }
+  out = light;
+}
+
+void read_light(Reader& reader, const Value& value, std::size_t number, Scene& scene,
+                std::map<std::string, int>& taken) {
+  const Format& f = format();
+  std::vector<Field> fields = f.light.fields;
+  for (const Section& kind : f.lights) fields.emplace_back().name = kind.name;
+  const auto values = reader.mapping(value, fields, "a light");
+  if (!values) return;
+  Light light;
+  light.name = unique_name(reader, *values, fmt::format("light {}", number), taken);
+  light.place = diagnostic_at(reader.document(), *value.node, {}).place;
+  const Value* first = nullptr;
+  for (const Value& one : values->values) {
+    if (one.key->text == "name") continue;
+    if (first != nullptr) {
+      reader.error(*one.key, one.label + " stands beside " + first->label,
+                   "a light is of one kind; make it a second light");
+      continue;
+    }
+    first = &one;
+#define LAMBENT_LIGHT(word, Struct)       \
+  if (one.key->text == Struct::info.name) \
+    read_light_of<Struct>(reader, one, *find(f.lights, Struct::info.name), light.light);
+#include "lights/lights.def"
+#undef LAMBENT_LIGHT
+  }
+  if (first == nullptr && !values->unknown_keys)
+    reader.error(*value.node, "this light has no kind", "it is one of: " + join(names_of(f.lights)));
+  scene.lights.push_back(std::move(light));
+}
+
+void read_materials(Reader& reader, const Value& value, Scene& scene) {
+  const auto list = reader.list(value, "material");
+  if (!list) return;
+  std::vector<Field> fields{format().material_name};
+  fields.insert(fields.end(), format().material.fields.begin(), format().material.fields.end());
+  std::map<std::string, int> taken;
+  for (const Value& one : *list) {
+    Material material;
+    if (one.node->kind == Node::Kind::mapping) {
+      // Its name first: even a material with errors is known by it, so that objects do not complain as well.
+      read_material(reader, one, fields, "a material", scene.illumination, material);
+      const Node* given = value_of(*one.node, "name");
+      if (given == nullptr) continue;
+      Values values;
+      values.values.push_back({given, one.node->children[0], "'name'"});
+      for (std::size_t k = 0; k + 1 < one.node->children.size(); k += 2)
+        if (one.node->children[k]->text == "name") values.values[0].key = one.node->children[k];
+      material.name = unique_name(reader, values, {}, taken);
+      if (!material.name.empty()) scene.materials.push_back(std::move(material));
+    } else {
+      reader.mapping(one, fields, "a material");  // which says what is wrong
+    }
+  }
+}
+
+void read_version(Reader& reader, const Value& value) {
+  int version = 0;
+  if (value.node->kind == Node::Kind::text && value.node->text != "1" && reader.integer(value, {}, version) &&
+      version != 1)
+    reader.error(*value.node,
+                 fmt::format("this is version {} of the format; only version 1 is known", version),
+                 "write lambent: 1");
+  else if (value.node->kind != Node::Kind::text) reader.integer(value, {}, version);
+}
+
+}  // namespace
+
+Scene read_scene(const Document& document, const std::string& folder, LoadedModels models) {
+  Reader reader(document);
+  Scene scene;
+  const Format& f = format();
+  Node start;  // of an empty document
+  start.kind = Node::Kind::mapping;
+  start.line = start.column = 1;
+  const Value whole{
+      document.root != nullptr && document.root->kind != Node::Kind::nothing ? document.root : &start,
+      nullptr, "the scene"};
+  const auto top = reader.mapping(whole, f.top.fields, "a scene");
+  if (top) {
+    if (const Value* v = top->find("lambent")) read_version(reader, *v);
+    if (const Value* v = top->find("camera")) read_camera(reader, *v, scene);
+    if (const Value* v = top->find("image")) read_image(reader, *v, scene.image);
+    if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
+    if (const Value* v = top->find("integrator")) read_integrator(reader, *v, scene.whitted);
+    if (const Value* v = top->find("background"))
+      reader.color(*v, limits(*find(f.top.fields, "background")), scene.background);
+    if (const Value* v = top->find("lights"))
+      if (const auto lights = reader.list(*v, "light")) {
+        std::map<std::string, int> taken;
+        for (std::size_t i = 0; i < lights->size(); ++i)
+          read_light(reader, (*lights)[i], i + 1, scene, taken);
+      }
+    if (const Value* v = top->find("materials")) read_materials(reader, *v, scene);
+    if (const Value* v = top->find("objects"))
+      if (const auto objects = reader.list(*v, "object")) {
+        ObjectReader object_reader(reader, scene, folder, std::move(models));
+        for (std::size_t i = 0; i < objects->size(); ++i)
+          object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
+      }
+  }
+  if (!reader.good()) throw InputError(reader.errors());
+  std::vector<Diagnostic> faults = validate(scene);
+  if (!faults.empty()) {
+    for (Diagnostic& fault : faults) {
+      const Source& source = document.sources[0];
+      if (fault.place.file != source.name || fault.place.line < 1 ||
+          fault.place.line > int(source.lines.size()))
+        continue;
+      fault.excerpt = source.lines[std::size_t(fault.place.line) - 1];
+      fault.caret_column = fault.place.column;
+    }
+    throw InputError(std::move(faults));
+  }
+  return scene;
+}
+
+}  // namespace lambent

@@ -1,0 +1,121 @@
+// What is in a scene, for people.
+
+#include <fmt/format.h>
+
+#include "lambent/lambent.h"
+#include "scene/scene.h"
+#include "scenefile/format.h"
+#include "scenefile/names.h"
+
+namespace lambent {
+namespace {
+
+// Six digits: what people read, not what a program reads back.
+std::string plain(double v) { return fmt::format("{:.6g}", v); }
+std::string plain(const Vec3<double>& v) { return plain(v.x) + " " + plain(v.y) + " " + plain(v.z); }
+std::string plain(const Rgb& v) { return plain(v[0]) + " " + plain(v[1]) + " " + plain(v[2]); }
+std::string plain(int v) { return std::to_string(v); }
+std::string plain(bool v) { return v ? "true" : "false"; }
+
+/// "position 3 4 4, intensity 8": what is required, and what is not as it is by default.
+template <class S>
+std::string detail(const S& settings) {
+  std::string result;
+  const S defaults{};
+  for (const Parameter<S>& parameter : parameters_of<S>) {
+    std::visit(
+        [&](auto member) {
+          if (!parameter.required && settings.*member == defaults.*member) return;
+          if (!result.empty()) result += ", ";
+          result += std::string(parameter.name) + " " + plain(settings.*member);
+        },
+        parameter.member);
+  }
+  return result;
+}
+
+std::string kind_of(const Shape& shape) {
+  struct Kinds {
+    std::string operator()(const Mesh&) const { return "mesh"; }
+    std::string operator()(const std::vector<Sphere>& s) const {
+      return s.size() == 1 ? "sphere" : "spheres";
+    }
+    std::string operator()(const std::vector<Cone>& s) const { return s.size() == 1 ? "cone" : "cones"; }
+    std::string operator()(const std::vector<Disc>& s) const { return s.size() == 1 ? "disc" : "discs"; }
+    std::string operator()(const std::vector<Plane>& s) const { return s.size() == 1 ? "plane" : "planes"; }
+  };
+  return std::visit(Kinds{}, shape.primitives);
+}
+
+void count(SceneSummary& summary, const Mesh& mesh) {
+  summary.triangles += mesh.triangles.size();
+  summary.vertices += mesh.vertices.size();
+}
+void count(SceneSummary& summary, const std::vector<Sphere>& spheres) { summary.spheres += spheres.size(); }
+void count(SceneSummary& summary, const std::vector<Cone>& cones) { summary.cones += cones.size(); }
+void count(SceneSummary& summary, const std::vector<Disc>& discs) { summary.discs += discs.size(); }
+void count(SceneSummary& summary, const std::vector<Plane>& planes) { summary.planes += planes.size(); }
+
+std::string camera_text(const Camera& camera) {
+  const bool flat = camera.projection == Projection::orthographic;
+  return fmt::format("{}, {}, from {} to {}", text_of(camera.projection),
+                     flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
+                     plain(camera.eye), plain(camera.target));
+}
+
+std::string model_text(const Illumination& illumination) {
+  const ModelInfo& model = info(illumination.model);
+  return fmt::format("{}, attenuation {}, ambient attenuation {}", model.name,
+                     text_of(illumination.attenuation.value_or(model.attenuation)),
+                     text_of(illumination.ambient_attenuation.value_or(model.ambient_attenuation)));
+}
+
+}  // namespace
+
+SceneSummary summarize(const ScenePtr& pointer) {
+  const Scene& scene = *pointer;
+  SceneSummary summary;
+  summary.name = scene.name;
+  summary.width = scene.image.width;
+  summary.height = scene.image.height;
+  summary.samples = scene.image.samples;
+  summary.camera = camera_text(scene.camera);
+  summary.model = model_text(scene.illumination);
+  summary.integrator = fmt::format("whitted, max_depth {}, shadows {}", scene.whitted.max_depth,
+                                   !scene.whitted.shadows          ? "off"
+                                   : scene.whitted.colored_shadows ? "coloured"
+                                                                   : "opaque");
+  const Bounds box = bounds(scene);
+  const double lower[] = {box.lower.x, box.lower.y, box.lower.z},
+               upper[] = {box.upper.x, box.upper.y, box.upper.z};
+  for (int i = 0; i < 3; ++i) {
+    summary.lower[i] = lower[i];
+    summary.upper[i] = upper[i];
+  }
+  for (const Shape& shape : scene.shapes)
+    std::visit([&](const auto& primitives) { count(summary, primitives); }, shape.primitives);
+
+  for (const Object& object : scene.objects) {
+    const Shape& shape = scene.shapes[object.shape];
+    std::string text = shape.name == kind_of(shape) ? "" : shape.name + ", ";
+    text += object.materials.size() == 1 ? "material " + scene.materials[object.materials[0]].name
+                                         : std::to_string(object.materials.size()) + " materials";
+    if (!is_identity(object.world_from_object)) text += ", transformed";
+    summary.objects.push_back(
+        {object.name, kind_of(shape), object.place, primitive_count(shape), std::move(text)});
+  }
+  for (const Light& light : scene.lights)
+    with_light(light.light, [&](const auto& one) {
+      summary.lights.push_back({light.name, one.info.name, light.place, 0, detail(one)});
+    });
+  for (const Material& material : scene.materials) {
+    std::string text = detail(material);
+    for (const auto& [name, value] : material.own)
+      text += (text.empty() ? "" : ", ") + name + " " + plain(value);
+    summary.materials.push_back({material.name, info(material.model.value_or(scene.illumination.model)).name,
+                                 material.place, 0, std::move(text)});
+  }
+  return summary;
+}
+
+}  // namespace lambent

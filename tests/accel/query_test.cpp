@@ -1,0 +1,298 @@
+// The ray queries against brute force and against their promises: the same answer whatever the tree and the packet, no ray lost between
+// triangles, no ray that hits the surface it leaves.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "accel/surface.h"
+#include "accel/traverse.h"
+#include "accel/world.h"
+
+namespace lambent {
+namespace {
+
+using QueryPack = Pack<float, native_float_lanes>;
+constexpr int lanes = lanes_of<QueryPack>;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(engine_); }
+  Vec3<double> point(double size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
+  Vec3<double> direction() {
+    std::normal_distribution<double> d;
+    return normalize(Vec3<double>{d(engine_), d(engine_), d(engine_)});
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+void add_object(Scene& scene, Primitives primitives, Transform transform = {}) {
+  if (scene.materials.empty()) scene.materials.emplace_back();
+  scene.objects.push_back({"", {}, std::uint32_t(scene.shapes.size()), {0}, transform});
+  scene.shapes.push_back({"", std::move(primitives), {}});
+}
+
+Mesh random_triangles(Random& random, int count, double size) {
+  Mesh mesh;
+  for (int i = 0; i < count; ++i) {
+    const Vec3<double> p = random.point(1);
+    for (int k = 0; k < 3; ++k) mesh.vertices.push_back(cast<float>(p + random.point(size)));
+    mesh.triangles.push_back({3u * i, 3u * i + 1, 3u * i + 2});
+  }
+  return mesh;
+}
+
+/// A sphere of triangles, closed: each edge belongs to two.
+Mesh ball(int rings, double radius, const Vec3<double>& center) {
+  Mesh mesh;
+  const int columns = 2 * rings;
+  for (int i = 0; i <= rings; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const auto [s, c] = sincos_degrees(180.0 * i / rings);
+      const auto [sj, cj] = sincos_degrees(360.0 * j / columns);
+      const Vec3<double> n{s * cj, c, s * sj};
+      mesh.vertices.push_back(cast<float>(center + radius * n));
+      mesh.normals.push_back(cast<float>(n));
+    }
+  for (auto& v : mesh.vertices) {  // one pole, not `columns` of them, so that the mesh is closed in floats too
+    if (&v - mesh.vertices.data() < columns) v = mesh.vertices[0];
+    if (&v - mesh.vertices.data() >= rings * columns) v = mesh.vertices[std::size_t(rings) * columns];
+  }
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const auto a = std::uint32_t(i * columns + j), b = std::uint32_t(i * columns + (j + 1) % columns), c = a + columns, d = b + columns;
+      if (i > 0) mesh.triangles.push_back({a, b, c});
+      if (i < rings - 1) mesh.triangles.push_back({b, d, c});
+    }
+  return mesh;
+}
+
+/// Some of everything: triangles, spheres, cones, discs, planes; instances, turned, stretched and mirrored.
+Scene random_scene(Random& random, double spread) {
+  Scene scene;
+  const Vec3<double> shift = random.point(spread);
+  add_object(scene, random_triangles(random, 200, 0.2), translation(shift));
+  std::vector<Sphere> spheres;
+  std::vector<Cone> cones;
+  std::vector<Disc> discs;
+  for (int i = 0; i < 60; ++i) {
+    spheres.push_back({shift + random.point(1), random.number(0.01, 0.15)});
+    cones.push_back({shift + random.point(1), shift + random.point(1), random.number(0, 0.1), random.number(0.01, 0.1)});
+    discs.push_back({shift + random.point(1), random.direction(), random.number(0.01, 0.3)});
+  }
+  add_object(scene, spheres);
+  add_object(scene, cones);
+  add_object(scene, discs);
+  add_object(scene, std::vector<Plane>{{shift + Vec3<double>{0, -1, 0}, {0.1, 1, 0}}});
+  const auto shape = std::uint32_t(scene.shapes.size());
+  scene.shapes.push_back({"", ball(8, 0.3, {}), {}});
+  for (int i = 0; i < 5; ++i)
+    scene.objects.push_back({"", {}, shape, {0}, translation(shift + random.point(1)) * rotation(random.direction(), random.number(0, 360)) *
+                                                     scaling({random.number(0.3, 1), random.number(0.3, 1), i % 2 ? -0.7 : 0.7})});
+  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 0.3}}, translation(shift) * scaling({1, 0.5, 0.2}));  // an ellipsoid
+  return scene;
+}
+
+std::uint32_t bits(float a) { return std::bit_cast<std::uint32_t>(a); }
+
+TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
+  for (double spread : {0.0, 30.0, 3000.0}) {
+    Random random(unsigned(spread) + 1);
+    const Scene scene = random_scene(random, spread);
+    const World world = build_world(scene);
+    const WorldView view = world.view();
+    // All primitives in one leaf: the same loop, and no box that could be passed over.
+    std::vector<BvhNode> leaves;
+    std::vector<Bvh> trees;
+    for (const Bvh& tree : world.bvhs) {
+      std::uint32_t first = UINT32_MAX, last = 0;
+      const auto visit = [&](auto&& self, const BvhNode& node) -> void {
+        if (node.count == 0) return self(self, world.nodes[node.first]), self(self, world.nodes[node.first + 1]);
+        first = std::min(first, node.first), last = std::max(last, node.first + node.count);
+      };
+      visit(visit, world.nodes[tree.root]);
+      const float huge = 1e30f;
+      trees.push_back({std::uint32_t(leaves.size()), tree.extent, false});
+      leaves.push_back({{-huge, -huge, -huge}, first, {huge, huge, huge}, last - first});
+    }
+    WorldView brute = view;
+    brute.nodes = leaves.data();
+    brute.bvhs = trees.data();
+
+    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+    int hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+      Vec3<QueryPack> packet_o, packet_d;
+      Closest<float> expected[lanes], alone[lanes];
+      bool expected_blocked[lanes];
+      for (int k = 0; k < lanes; ++k) {
+        const Vec3<float> o = cast<float>(middle + random.point(2));
+        Vec3<float> d = cast<float>(random.direction());
+        if (k % 5 == 0) (k % 2 ? d.x : d.y) = 0;  // along the sides of boxes too
+        const QueryRay<float> ray(o, d);
+        set_lane(packet_o.x, k, o.x), set_lane(packet_o.y, k, o.y), set_lane(packet_o.z, k, o.z);
+        set_lane(packet_d.x, k, d.x), set_lane(packet_d.y, k, d.y), set_lane(packet_d.z, k, d.z);
+        expected[k].t = alone[k].t = INFINITY;
+        find_closest(brute, ray, true, expected[k]);
+        find_closest(view, ray, true, alone[k]);
+        expected_blocked[k] = find_occluded(brute, ray, true, 1.f, true);
+        EXPECT_EQ(expected_blocked[k], find_occluded(view, ray, true, 1.f, true));
+      }
+      const QueryRay<QueryPack> packet(packet_o, packet_d);
+      Closest<QueryPack> together{QueryPack(INFINITY)};
+      find_closest(view, packet, MaskOf<QueryPack>(true), together);
+      const auto blocked = find_occluded(view, packet, MaskOf<QueryPack>(true), QueryPack(1.f), true);
+      for (int k = 0; k < lanes; ++k) {
+        hits += expected[k].ids.geometry >= 0;
+        for (const Closest<float>& got : {alone[k], Closest<float>{lane(together.t, k), {lane(together.ids.instance, k), lane(together.ids.geometry, k), lane(together.ids.primitive, k)}}}) {
+          ASSERT_EQ(bits(got.t), bits(expected[k].t));
+          ASSERT_EQ(got.ids.instance, expected[k].ids.instance);
+          ASSERT_EQ(got.ids.geometry, expected[k].ids.geometry);
+          ASSERT_EQ(got.ids.primitive, expected[k].ids.primitive);
+        }
+        ASSERT_EQ(lane(blocked, k), expected_blocked[k]);
+      }
+    }
+    EXPECT_GT(hits, 500);
+  }
+}
+
+TEST(Queries, NoRayIsLostBetweenTheTrianglesOfAClosedMesh) {
+  // From inside a closed mesh every ray must hit, through vertices and along edges above all.
+  for (const Vec3<double>& center : {Vec3<double>{}, Vec3<double>{100, -50, 7}}) {
+    Scene scene;
+    add_object(scene, ball(40, 1, center));
+    const World world = build_world(scene);
+    const Mesh& mesh = std::get<Mesh>(scene.shapes[0].primitives);
+    Random random(9);
+    long lost = 0, rays = 0;
+    const auto shoot = [&](const Vec3<double>& o, const Vec3<double>& target) {
+      Closest<float> hit{INFINITY};
+      find_closest(world.view(), QueryRay<float>{cast<float>(o), cast<float>(normalize(target - o))}, true, hit);
+      lost += hit.ids.geometry < 0;
+      ++rays;
+    };
+    for (int repeat = 0; repeat < 3; ++repeat) {
+      const Vec3<double> o = center + random.point(0.4);
+      for (const auto& triangle : mesh.triangles)
+        for (int k = 0; k < 3; ++k) {
+          const auto a = cast<double>(mesh.vertices[triangle[k]]), b = cast<double>(mesh.vertices[triangle[(k + 1) % 3]]);
+          shoot(o, a);
+          shoot(o, a + random.number(0, 1) * (b - a));
+        }
+    }
+    EXPECT_EQ(lost, 0) << "of " << rays;
+  }
+}
+
+TEST(Queries, NoRayIsLostInAGrid) {
+  // A flat grid, rays straight down onto its vertices and edges.
+  const int n = 300;
+  Scene scene;
+  Mesh mesh;
+  Random random(3);
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) mesh.vertices.push_back({x / float(n), y / float(n), float(0.02 * random.number(-1, 1))});
+  for (std::uint32_t y = 0; y < n; ++y)
+    for (std::uint32_t x = 0; x < n; ++x) {
+      const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
+      mesh.triangles.push_back({a, b, d});
+      mesh.triangles.push_back({a, d, c});
+    }
+  const auto vertices = mesh.vertices;
+  add_object(scene, std::move(mesh));
+  const World world = build_world(scene);
+  long lost = 0;
+  for (int y = 1; y < n; ++y)
+    for (int x = 1; x < n; ++x) {
+      const auto& v = vertices[std::size_t(y) * (n + 1) + x];
+      for (const Vec3<float>& o : {Vec3<float>{v.x, v.y, 1}, Vec3<float>{(x + 0.5f) / n, v.y, 1}, Vec3<float>{v.x, (y + 0.3f) / n, 1}}) {
+        Closest<float> hit{INFINITY};
+        find_closest(world.view(), QueryRay<float>{o, {0, 0, -1}}, true, hit);
+        lost += hit.ids.geometry < 0;
+      }
+    }
+  EXPECT_EQ(lost, 0);
+}
+
+/// Rays that leave surface points of every kind, on both sides and near the horizon too, must not hit the primitive they leave.
+TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
+  for (double spread : {0.0, 10.0, 1000.0, 1e6}) {
+    Random random(unsigned(spread) + 20);
+    const Scene scene = random_scene(random, spread);
+    const World world = build_world(scene);
+    const WorldView view = world.view();
+    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+    long self_hits = 0, leaves = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3<double> o = middle + random.point(2), d = random.direction();
+      Closest<float> hit{INFINITY};
+      find_closest(view, QueryRay<float>{cast<float>(o), cast<float>(d)}, true, hit);
+      if (hit.ids.geometry < 0) continue;
+      const SurfacePoint s = surface_at(view, hit.ids, o, d, hit.t);
+      const PrimitiveKind kind = view.geometries[hit.ids.geometry].kind;
+      for (double side : {1.0, -1.0}) {
+        const Vec3<double> n = side * s.Ng;
+        const Vec3<double> tangent = normalize(cross(n, random.direction()));
+        const Vec3<double> ways[] = {n, normalize(n + random.direction()), normalize(tangent + 1e-3 * n), normalize(tangent + 1e-6 * n)};
+        for (const Vec3<double>& way : ways) {
+          if (dot(way, n) <= 0) continue;
+          ++leaves;
+          const QueryRay<float> leaving{cast<float>(s.P + s.offset * n), cast<float>(way)};
+          Closest<float> again{INFINITY};
+          find_closest(view, leaving, true, again);
+          const bool same = again.ids.instance == hit.ids.instance && again.ids.geometry == hit.ids.geometry && again.ids.primitive == hit.ids.primitive;
+          // From inside a sphere or a cone the far side is a true hit: only a hit where the ray starts is a false one.
+          const bool curved = kind == PrimitiveKind::sphere || kind == PrimitiveKind::cone;
+          self_hits += same && (!curved || side > 0);
+        }
+      }
+    }
+    EXPECT_EQ(self_hits, 0) << "of " << leaves << " at " << spread;
+    EXPECT_GT(leaves, 50000);
+  }
+}
+
+TEST(Queries, EqualDistanceGoesToTheLowestNumber) {
+  Scene scene;
+  add_object(scene, std::vector<Disc>{{{0, 0, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 0, 1}, 2}, {{0, 0, 0}, {0, 0, 1}, 3}});
+  const World world = build_world(scene);
+  for (double x : {0.5, 1.5, 2.5}) {
+    Closest<float> hit{INFINITY};
+    find_closest(world.view(), QueryRay<float>{{float(x), 0, 5}, {0, 0, -1}}, true, hit);
+    EXPECT_EQ(hit.ids.primitive, int(x));
+  }
+}
+
+TEST(Surface, PointAndNormalAreExact) {
+  Scene scene;
+  add_object(scene, std::vector<Sphere>{{{1, 2, 3}, 0.5}});
+  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 1}}, translation({10, 0, 0}) * scaling({1, 2, 1}));  // x^2 + (y/2)^2 + z^2 = 1
+  add_object(scene, std::vector<Cone>{{{20, 0, 0}, {20, 2, 0}, 1, 0}});
+  const World world = build_world(scene);
+  const auto look = [&](const Vec3<double>& o, const Vec3<double>& d) {
+    Closest<float> hit{INFINITY};
+    find_closest(world.view(), QueryRay<float>{cast<float>(o), cast<float>(d)}, true, hit);
+    EXPECT_GE(hit.ids.geometry, 0);
+    return surface_at(world.view(), hit.ids, o, d, hit.t);
+  };
+  const Vec3<double> d{0, 0, -1};
+  const SurfacePoint sphere = look({1.3, 2, 9}, d);
+  EXPECT_NEAR(sphere.P.z, 3 + std::sqrt(0.25 - 0.09), 1e-15);  // z = cz + sqrt(r^2 - dx^2)
+  EXPECT_NEAR(sphere.N.x, 0.3 / 0.5, 1e-15);
+  const SurfacePoint ellipsoid = look({10, 1, 9}, d);
+  EXPECT_NEAR(ellipsoid.P.z, std::sqrt(1 - 0.25), 1e-15);
+  // gradient (0, 2y/4, 2z) at (0, 1, sqrt(3)/2)
+  EXPECT_NEAR(length(ellipsoid.N - normalize(Vec3<double>{0, 0.5, std::sqrt(3.0)})), 0, 1e-15);
+  const SurfacePoint cone = look({20, 1, 9}, d);
+  EXPECT_NEAR(cone.P.z, 0.5, 1e-15);  // radius 1 - y/2
+  EXPECT_NEAR(length(cone.N - normalize(Vec3<double>{0, 0.5, 1})), 0, 1e-15);  // slope 1/2
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,77 @@
+#include "lights/lights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "math/pack.h"
+
+namespace lambent {
+namespace {
+
+TEST(PointLight, GivesDirectionDistanceAndColour) {
+  const PointLight light{{3, 4, 0}, {{1, 0.5, 0.25}}, 8};
+  const auto s = sample(light, Vec3<double>{0, 0, 0}, 0.5, 0.5);
+  EXPECT_EQ(s.r, 5);  // sqrt(3^2 + 4^2)
+  EXPECT_NEAR(length(s.L - Vec3<double>{0.6, 0.8, 0}), 0, 1e-15);
+  EXPECT_TRUE(s.I == (Rgb{{8, 4, 2}}));
+  EXPECT_EQ(s.density, 0);
+}
+
+TEST(PointLight, HasNoDirectionAtItsOwnPosition) {
+  const auto s = sample(PointLight{{1, 2, 3}, {{1, 1, 1}}, 1}, Vec3<double>{1, 2, 3}, 0.5, 0.5);
+  EXPECT_EQ(s.r, 0);
+  EXPECT_EQ(s.L, Vec3<double>{});
+}
+
+TEST(DirectionalLight, ComesFromInfinityAgainstItsDirection) {
+  const auto s = sample(DirectionalLight{{0, -2, 0}, {{1, 1, 1}}, 3}, Vec3<double>{7, 7, 7}, 0.5, 0.5);
+  EXPECT_EQ(s.L, (Vec3<double>{0, 1, 0}));
+  EXPECT_EQ(s.r, double(INFINITY));
+  EXPECT_EQ(s.I[1], 3);
+}
+
+/// Brightness at theta degrees from the axis of a spot that looks down from height 1.
+double spot_at(double theta, double angle, double softness, double exponent) {
+  const SpotLight light{{0, 1, 0}, {0, 0, 0}, {{1, 1, 1}}, 1, angle, softness, exponent};
+  return sample(light, Vec3<double>{std::tan(theta * M_PI / 180), 0, 0}, 0.5, 0.5).I[0];
+}
+
+TEST(SpotLight, FadesBetweenTheInnerAndTheOuterCone) {
+  const auto smooth = [](double x) { return x * x * (3 - 2 * x); };
+  const auto c = [](double degrees) { return std::cos(degrees * M_PI / 180); };
+  EXPECT_EQ(spot_at(0, 60, 0.5, 0), 1);
+  EXPECT_EQ(spot_at(14.9, 60, 0.5, 0), 1);  // b = (1 - 0.5) 30 = 15
+  EXPECT_NEAR(spot_at(20, 60, 0.5, 0), smooth((c(20) - c(30)) / (c(15) - c(30))), 1e-12);
+  EXPECT_EQ(spot_at(30.1, 60, 0.5, 0), 0);
+  EXPECT_NEAR(spot_at(10, 60, 0.5, 4), std::pow(c(10), 4), 1e-12);
+  EXPECT_EQ(spot_at(29.9, 60, 0, 0), 1);  // softness 0: a hard edge
+  EXPECT_EQ(spot_at(30.1, 60, 0, 0), 0);
+}
+
+TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
+  using P = Pack<double, native_float_lanes / 2>;
+  const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2}, DirectionalLight{{1, -2, 0.5}, {{1, 1, 1}}, 1},
+                             SpotLight{{0, 3, 0}, {0.2, 0, 0.1}, {{1, 1, 1}}, 2, 70, 0.4, 3}};
+  static_assert(std::size(lights) == std::variant_size_v<AnyLight> - 1, "a light is missing in this test");
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> u(-3, 3);
+  for (const AnyLight& any : lights)
+    for (int i = 0; i < 1000; ++i) {
+      Vec3<P> p;
+      for (int k = 0; k < lanes_of<P>; ++k) set_lane(p.x, k, u(random)), set_lane(p.y, k, u(random)), set_lane(p.z, k, u(random));
+      with_light(any, [&](const auto& light) {
+        const auto together = sample(light, p, P(0.5), P(0.5));
+        for (int k = 0; k < lanes_of<P>; ++k) {
+          const auto alone = sample(light, Vec3<double>{lane(p.x, k), lane(p.y, k), lane(p.z, k)}, 0.5, 0.5);
+          EXPECT_EQ(to_bits(lane(together.L.x, k)), to_bits(alone.L.x));
+          EXPECT_EQ(to_bits(lane(together.r, k)), to_bits(alone.r));
+          for (int c = 0; c < color_channels; ++c) EXPECT_EQ(to_bits(lane(together.I[c], k)), to_bits(alone.I[c]));
+        }
+      });
+    }
+}
+
+}  // namespace
+}  // namespace lambent

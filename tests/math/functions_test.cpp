@@ -1,0 +1,103 @@
+#include "math/functions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "math/pack.h"
+#include "math/transform.h"
+
+namespace lambent {
+namespace {
+
+using DoublePack = Pack<double, native_float_lanes / 2>;
+constexpr int lanes = lanes_of<DoublePack>;
+
+TEST(Functions, PowerAgreesWithTheCLibrary) {
+  // glibc's pow is right to 1 ulp. Ours carries the rounding of y log2 x: |y log2 x| 2^-53 in the exponent.
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> base(0, 2), power(0, 300);
+  for (int i = 0; i < 200000; ++i) {
+    const double x = base(random), y = power(random), expected = std::pow(x, y);
+    if (expected < 1e-300) continue;
+    const double exponent = std::fabs(std::log2(x) * y);
+    EXPECT_NEAR(pow(x, y) / expected, 1, 4e-16 * (4 + exponent)) << x << "^" << y;
+  }
+}
+
+TEST(Functions, PowerOfFloatIsRightToOneUlp) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> base(0, 1), power(1, 128);
+  for (int i = 0; i < 200000; ++i) {
+    const float x = base(random), y = power(random), got = pow(x, y);
+    const double expected = std::pow(double(x), double(y));
+    if (expected < std::numeric_limits<float>::min()) continue;
+    EXPECT_LE(std::fabs(got - expected), std::ldexp(1.0, std::ilogb(expected) - 23)) << x << "^" << y;
+  }
+}
+
+TEST(Functions, PowerAtTheEdges) {
+  EXPECT_EQ(pow(0.0, 0.0), 1);   // a highlight with shininess 0 is everywhere
+  EXPECT_EQ(pow(0.0, 5.0), 0);
+  EXPECT_EQ(pow(1.0, 1e6), 1);
+  EXPECT_EQ(pow(0.5, 1e6), 0);
+  EXPECT_EQ(pow(2.0, 10.0), 1024);
+  EXPECT_EQ(pow(2.0, 2000.0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(exp2(-1022.0), std::numeric_limits<double>::min());
+  EXPECT_EQ(exp2(1023.0), std::ldexp(1.0, 1023));
+}
+
+TEST(Functions, ALaneOfAPacketHasTheBitsOfTheNumber) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> base(-0.1, 1.1), power(0, 200), angle(-1000, 1000);
+  for (int i = 0; i < 20000; ++i) {
+    DoublePack x, y, a;
+    for (int k = 0; k < lanes; ++k) set_lane(x, k, base(random)), set_lane(y, k, power(random)), set_lane(a, k, angle(random));
+    const DoublePack p = pow(x, y);
+    const auto turn = sincos_degrees(a);
+    for (int k = 0; k < lanes; ++k) {
+      EXPECT_EQ(to_bits(lane(p, k)), to_bits(pow(lane(x, k), lane(y, k))));
+      EXPECT_EQ(to_bits(lane(turn.sin, k)), to_bits(sincos_degrees(lane(a, k)).sin));
+      EXPECT_EQ(to_bits(lane(turn.cos, k)), to_bits(sincos_degrees(lane(a, k)).cos));
+    }
+  }
+}
+
+TEST(Functions, SineAndCosine) {
+  for (int quarter = -8; quarter <= 8; ++quarter) {
+    const auto [s, c] = sincos_degrees(90.0 * quarter);
+    EXPECT_EQ(s, quarter % 2 == 0 ? 0 : ((quarter % 4 + 4) % 4 == 1 ? 1 : -1)) << quarter;
+    EXPECT_EQ(c, quarter % 2 != 0 ? 0 : ((quarter % 4 + 4) % 4 == 0 ? 1 : -1)) << quarter;
+  }
+  EXPECT_NEAR(sincos_degrees(30.0).sin, 0.5, 1e-16);
+  for (double degrees = -720; degrees < 720; degrees += 0.37) {
+    const auto [s, c] = sincos_degrees(degrees);
+    EXPECT_NEAR(s, std::sin(degrees * M_PI / 180), 4e-15);
+    EXPECT_NEAR(c, std::cos(degrees * M_PI / 180), 4e-15);
+    EXPECT_NEAR(s * s + c * c, 1, 1e-15);
+  }
+}
+
+TEST(Transform, InverseUndoes) {
+  const Transform t = translation({1, 2, 3}) * rotation(normalize(Vec3<double>{1, 2, -1}), 37) * scaling({2, 3, -0.5});
+  const Vec3<double> p{0.3, -4, 2}, back = transform_point(inverse(t), transform_point(t, p));
+  EXPECT_NEAR(length(back - p), 0, 1e-14);
+  EXPECT_NEAR(determinant(t), 2 * 3 * -0.5, 1e-14);  // rotations keep volumes
+}
+
+TEST(Transform, RotationIsRightHanded) {
+  const Vec3<double> x{1, 0, 0};
+  EXPECT_EQ(transform_vector(rotation({0, 0, 1}, 90), x), (Vec3<double>{0, 1, 0}));  // x to y about z
+  EXPECT_EQ(transform_vector(rotation({0, 1, 0}, 90), x), (Vec3<double>{0, 0, -1}));
+}
+
+TEST(Transform, NormalsStayAcross) {
+  const Transform t = rotation({0, 1, 0}, 20) * scaling({1, 4, 2});
+  const Vec3<double> a = normalize(Vec3<double>{1, 2, 3}), b = normalize(cross(a, Vec3<double>{0, 1, 0}));  // b lies in the plane across a
+  EXPECT_NEAR(dot(transform_normal(inverse(t), a), transform_vector(t, b)), 0, 1e-15);
+}
+
+}  // namespace
+}  // namespace lambent
