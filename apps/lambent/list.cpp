@@ -108,7 +108,10 @@ std::string as_text(const Entry& entry, int width) {
 
 std::string as_text(const Topic& topic, int width) {
   std::string text = wrapped(topic.title, width, 0);
-  for (const Entry& entry : topic.entries) text += "\n" + as_text(entry, width);
+  for (const Entry& entry : topic.entries) {
+    text += '\n';
+    text += as_text(entry, width);
+  }
   return text;
 }
 

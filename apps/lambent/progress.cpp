@@ -57,7 +57,7 @@ void Progress::update(double share) {
           fmt::format("{} %{}\n", (tenths_ + 1) * 10, left > 0 ? ", " + duration(left) + " left" : ""));
   } else if (now - drawn_ >= between_redraws) {
     // The last column stays free: some terminals wrap when it is filled.
-    print_error("\r" + progress_bar(share, left, columns(STDERR_FILENO) - 1) + "\033[K");
+    print_error(fmt::format("\r{}\033[K", progress_bar(share, left, columns(STDERR_FILENO) - 1)));
     drawn_ = now;
     visible_ = true;
   }

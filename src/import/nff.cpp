@@ -6,6 +6,9 @@
 //   - A negative radius shows only the inside; surfaces here have two sides, so its absolute value is taken.
 //   - `hither` cuts nothing off. Pixels are square, and `angle` is the vertical one.
 //   - Lights have "no particular value": sqrt(n)/(2n) for each of n lights, as in the databases' own rules.
+//   - Colours are those that a screen of the time showed, so they are decoded as sRGB; coefficients are
+//   numbers as they
+//     stand. So the databases' own pictures come out nearest, and their backgrounds exactly.
 //   - Objects before the first `f` are of a neutral grey, with a warning.
 
 #include <algorithm>
@@ -19,6 +22,7 @@
 
 #include "import/model.h"
 #include "import/text_file.h"
+#include "lambent/image.h"
 #include "scene/triangulate.h"
 
 namespace lambent {
@@ -199,6 +203,8 @@ class Reader {
     c[0] = number({"red"}, factors);
     c[1] = number({"green"}, factors);
     c[2] = number({"blue"}, factors);
+    for (int i = 0; i < 3; ++i)
+      if (c[i] < 1) c[i] = linear_from_srgb(c[i]);  // above 1 sRGB has no meaning
     return c;
   }
 
@@ -323,7 +329,10 @@ class Reader {
     material.ambient = material.diffuse = Kd * rgb;
     material.specular = Ks * rgb;
     material.shininess = shine;
-    material.reflect = grey(Ks);
+    // The databases' rules follow a mirror ray from every transmitting surface, and count it, even where Ks
+    // is 0 and it adds nothing. A factor too small for any picture keeps that ray.
+    constexpr double next_to_nothing = 1e-30;
+    material.reflect = grey(T > 0 ? max(Ks, next_to_nothing) : Ks);
     material.transmit = grey(T);
     material.ior = ior;
     model_.materials.push_back(std::move(material));

@@ -31,7 +31,7 @@ std::string nearest(std::string_view name, const std::vector<std::string>& known
   int best_distance = 1 << 20;
   for (const std::string& candidate : known) {
     const int distance = edit_distance(name, candidate);
-    const int limit = std::max<int>(1, int(std::max(name.size(), candidate.size())) / 3);
+    const int limit = std::max(1, int(std::max(name.size(), candidate.size()) + 1) / 3);
     // A name with every letter changed resembles nothing.
     if (distance <= limit && distance < int(candidate.size()) && distance < best_distance) {
       best = candidate;

@@ -228,12 +228,10 @@ void read_materials(Reader& reader, const Value& value, Scene& scene) {
 
 void read_version(Reader& reader, const Value& value) {
   int version = 0;
-  if (value.node->kind == Node::Kind::text && value.node->text != "1" && reader.integer(value, {}, version) &&
-      version != 1)
+  if (reader.integer(value, {}, version) && version != 1)
     reader.error(*value.node,
                  fmt::format("this is version {} of the format; only version 1 is known", version),
                  "write lambent: 1");
-  else if (value.node->kind != Node::Kind::text) reader.integer(value, {}, version);
 }
 
 }  // namespace

@@ -20,8 +20,11 @@ struct Value {
   const Node* node = nullptr;  ///< The value itself.
   const Node* key = nullptr;   ///< The key it stands behind, or null in a list.
   std::string label;           ///< "'fov'", "number 2 of 'eye'".
-  /// Where complaints point: an empty value has no place of its own.
-  const Node& place() const { return node->kind == Node::Kind::nothing && key != nullptr ? *key : *node; }
+  /// Where complaints point: an empty value has no place of its own in its text.
+  const Node& place() const {
+    const bool empty = node->kind == Node::Kind::nothing && key != nullptr && key->source == node->source;
+    return empty ? *key : *node;
+  }
 };
 
 /// A mapping whose keys have been looked at.

@@ -1,0 +1,68 @@
+#include "film/pattern.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "film/film.h"
+
+namespace lambent {
+namespace {
+
+TEST(Pattern, OneSampleIsTheCentre) {
+  for (Filter filter : {Filter::box, Filter::tent}) {
+    const auto points = sample_pattern(1, filter);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_EQ(points[0].x, 0.5);
+    EXPECT_EQ(points[0].y, 0.5);
+  }
+}
+
+TEST(Pattern, EveryRowAndColumnHoldsOneSample) {
+  for (int n : {2, 3, 4, 7, 16, 100}) {
+    std::set<int> rows, columns;
+    double x = 0, y = 0;
+    for (const auto& point : sample_pattern(n, Filter::box)) {
+      columns.insert(int(point.x * n));
+      rows.insert(int(point.y * n));
+      x += point.x, y += point.y;
+    }
+    EXPECT_EQ(int(rows.size()), n);
+    EXPECT_EQ(int(columns.size()), n);
+    EXPECT_NEAR(x / n, 0.5, 1e-12);  // balanced around the centre
+    EXPECT_NEAR(y / n, 0.5, 1e-12);
+  }
+}
+
+TEST(Pattern, EveryDyadicBoxHoldsOneSampleWhereTheCountIsAPowerOfTwo) {
+  for (int bits = 1; bits <= 8; ++bits)
+    for (int wide = 0; wide <= bits; ++wide) {
+      const int columns = 1 << wide, rows = 1 << (bits - wide);
+      std::set<int> boxes;
+      for (const auto& point : sample_pattern(1 << bits, Filter::box)) boxes.insert(int(point.y * rows) * columns + int(point.x * columns));
+      EXPECT_EQ(int(boxes.size()), 1 << bits) << columns << " x " << rows;
+    }
+}
+
+TEST(Pattern, TentHasTheTentsVariance) {
+  // The variance of the weight 1 - |x| on [-1, 1] is 1/6.
+  double sum = 0;
+  const auto points = sample_pattern(4096, Filter::tent);
+  for (const auto& point : points) sum += (point.x - 0.5) * (point.x - 0.5);
+  EXPECT_NEAR(sum / 4096, 1.0 / 6, 1e-3);
+}
+
+TEST(Film, CornersAreAveraged) {
+  ImageSettings settings;
+  settings.width = 2, settings.height = 1, settings.pattern = Pattern::corners;
+  std::vector<float> film;
+  for (float v : {0.f, 1.f, 4.f, 3.f, 0.f, 8.f}) film.insert(film.end(), {v, 2 * v, 0});  // 3 x 2 corners
+  const Image image = develop(film, settings);
+  EXPECT_EQ(image.pixel(0, 0)[0], (0 + 1 + 3 + 0) / 4.f);
+  EXPECT_EQ(image.pixel(1, 0)[0], (1 + 4 + 0 + 8) / 4.f);
+  EXPECT_EQ(image.pixel(1, 0)[1], (2 + 8 + 0 + 16) / 4.f);
+}
+
+}  // namespace
+}  // namespace lambent

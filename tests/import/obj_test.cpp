@@ -1,0 +1,522 @@
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "import/model.h"
+#include "math/functions.h"
+#include "support.h"
+
+namespace lambent {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// The model that `text` makes as an OBJ file; other files may lie beside it.
+Model obj(const std::string& text, const std::map<std::string, std::string>& beside = {}) {
+  const test::TemporaryDirectory folder;
+  for (const auto& [name, content] : beside) test::write_text(folder.file(name), content);
+  test::write_text(folder.file("model.obj"), text);
+  return import_obj(folder.file("model.obj"));
+}
+
+const Mesh& mesh_of(const Model& model) { return std::get<Mesh>(model.shapes.at(0).primitives); }
+
+/// A diagnostic as the program prints it, without the folder.
+std::string printed(const Diagnostic& diagnostic) {
+  Diagnostic d = diagnostic;
+  d.place.file = std::filesystem::path(d.place.file).filename().string();
+  return to_string(d);
+}
+
+/// Everything that is wrong with `text`, as the program prints it.
+std::vector<std::string> errors_of(const std::string& text,
+                                   const std::map<std::string, std::string>& beside = {}) {
+  std::vector<std::string> result;
+  try {
+    obj(text, beside);
+  } catch (const InputError& error) {
+    for (const Diagnostic& d : error.diagnostics()) result.push_back(printed(d));
+  }
+  return result;
+}
+
+std::vector<std::string> warnings_of(const Model& model) {
+  std::vector<std::string> result;
+  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
+  return result;
+}
+
+using Strings = std::vector<std::string>;
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+// ---- geometry ----
+
+TEST(Obj, ATriangle) {
+  const Model model = obj("v 0 0 0\nv 1.5 0 0\nv 0 2 -3\nf 1 2 3\n");
+  ASSERT_EQ(model.shapes.size(), 1u);
+  EXPECT_EQ(model.shapes[0].name, "model.obj");
+  EXPECT_TRUE(model.shapes[0].material_of_primitive.empty());
+  const Mesh& mesh = mesh_of(model);
+  ASSERT_EQ(mesh.vertices.size(), 3u);
+  EXPECT_EQ(mesh.vertices[1], (Vec3<float>{1.5f, 0, 0}));
+  EXPECT_EQ(mesh.vertices[2], (Vec3<float>{0, 2, -3}));
+  EXPECT_EQ(mesh.triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_TRUE(mesh.normals.empty());
+  EXPECT_TRUE(mesh.uvs.empty());
+  EXPECT_EQ(warnings_of(model), Strings{});
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].name, "default");
+  EXPECT_EQ(model.materials[0].diffuse, (Rgb{{0.8, 0.8, 0.8}}));
+}
+
+TEST(Obj, EveryFormOfACorner) {
+  const std::string head = square + "vt 0 0\nvt 1 0.5 7\nvt 0.25\nvn 0 0 2\nvn 0 3 0\nvn 0 0 0\n";
+  const Model v = obj(head + "f 1 2 3\n"), v_t = obj(head + "f 1/1 2/2 3/3\n"),
+              v_n = obj(head + "f 1//1 2//2 3//3\n"), v_t_n = obj(head + "f 1/1/1 2/2/2 3/3/3\n");
+  EXPECT_TRUE(mesh_of(v).uvs.empty() && mesh_of(v).normals.empty());
+  EXPECT_TRUE(mesh_of(v_t).normals.empty());
+  EXPECT_TRUE(mesh_of(v_n).uvs.empty());
+  for (const Model* model : {&v_t, &v_t_n}) {
+    ASSERT_EQ(mesh_of(*model).uvs.size(), 3u);
+    EXPECT_EQ(mesh_of(*model).uvs[1].x, 1.f);
+    EXPECT_EQ(mesh_of(*model).uvs[1].y, 0.5f);
+    EXPECT_EQ(mesh_of(*model).uvs[2].x, 0.25f);
+    EXPECT_EQ(mesh_of(*model).uvs[2].y, 0.f);
+  }
+  for (const Model* model : {&v_n, &v_t_n}) {  // unit length; a zero normal stays zero: the face's own
+    ASSERT_EQ(mesh_of(*model).normals.size(), 3u);
+    EXPECT_EQ(mesh_of(*model).normals[0], (Vec3<float>{0, 0, 1}));
+    EXPECT_EQ(mesh_of(*model).normals[1], (Vec3<float>{0, 1, 0}));
+    EXPECT_EQ(mesh_of(*model).normals[2], (Vec3<float>{0, 0, 0}));
+  }
+}
+
+TEST(Obj, NegativeIndicesCountBackFromWhatIsDefinedSoFar) {
+  const Model model = obj("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -4 -3 -1\n");
+  EXPECT_EQ(mesh_of(model).vertices.size(), 4u);
+  EXPECT_EQ(mesh_of(model).vertices[0], (Vec3<float>{0, 0, 0}));
+  EXPECT_EQ(mesh_of(model).vertices[3], (Vec3<float>{0, 0, 1}));
+  EXPECT_EQ(mesh_of(model).triangles, (Triangles{{0, 1, 2}, {0, 1, 3}}));
+}
+
+TEST(Obj, VerticesAreSharedWhereAllTheirIndicesAgree) {
+  const std::string head = square + "vt 0 0\nvt 1 1\nvn 0 0 1\nvn 1 0 0\n";
+  EXPECT_EQ(mesh_of(obj(head + "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n")).vertices.size(), 4u);
+  EXPECT_EQ(mesh_of(obj(head + "f 1//1 2//1 3//1\nf 1//1 3//2 4//1\n")).vertices.size(), 5u);
+  EXPECT_EQ(mesh_of(obj(head + "f 1/1 2/1 3/1\nf 1/2 3/2 4/2\n")).vertices.size(), 6u);
+}
+
+TEST(Obj, UnusedVerticesAreLeftOut) {
+  const Model model = obj("v 5 5 5\nv 6 6 6\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 3 4 5\n");
+  EXPECT_EQ(mesh_of(model).vertices.size(), 3u);
+}
+
+TEST(Obj, APolygonIsCutIntoTriangles) {
+  EXPECT_EQ(mesh_of(obj(square + "f 1 2 3 4\n")).triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  // An arrowhead: its fourth corner points inwards.
+  EXPECT_EQ(mesh_of(obj("v -1 -1 0\nv 2 0 0\nv -1 1 0\nv 0 0 0\nf 1 2 3 4\n")).triangles,
+            (Triangles{{0, 1, 3}, {1, 2, 3}}));
+  // An L of six corners has the area 3.
+  const Model l = obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
+  double area = 0;
+  for (const auto& t : mesh_of(l).triangles) {
+    const auto& v = mesh_of(l).vertices;
+    const float z = cross(v[t[1]] - v[t[0]], v[t[2]] - v[t[0]]).z;
+    EXPECT_GT(z, 0);
+    area += z / 2;
+  }
+  EXPECT_EQ(area, 3);
+}
+
+TEST(Obj, WeightsAndColoursOfVerticesArePassedOver) {
+  const Model model = obj("v 0 0 0 0.5\nv 1 0 0 0.1 0.2 0.3\nv 0 1 0 1 1 1 1\nf 1 2 3\n");
+  EXPECT_EQ(mesh_of(model).vertices[1], (Vec3<float>{1, 0, 0}));
+  EXPECT_EQ(warnings_of(model), Strings{});
+}
+
+TEST(Obj, CommentsBlankLinesAndJoinedLines) {
+  const Model model =
+      obj("# C:\\made\\here\\\n\n   # indented\n\tv 0 0 0 # first\nv 1 0 \\\n 0\nv 0 1 0\r\nv 1 1 0\r\nf 1 2 "
+          "\\\r\n  4 \\\n 3 # end");
+  EXPECT_EQ(mesh_of(model).vertices.size(), 4u);
+  EXPECT_EQ(mesh_of(model).triangles.size(), 2u);
+}
+
+TEST(Obj, Utf16AndByteOrderMark) {
+  const std::string text = square + "f 1 2 3\n";
+  std::string big = "\xfe\xff", little = "\xff\xfe";
+  for (const char c : text) {
+    big += {'\0', c};
+    little += {c, '\0'};
+  }
+  for (const std::string& bytes : {big, little, "\xef\xbb\xbf" + text})
+    EXPECT_EQ(mesh_of(obj(bytes)).triangles.size(), 1u);
+}
+
+TEST(Obj, TrianglesWithoutAreaAreCounted) {
+  const Model model = obj(square + "v 2 0 0\nf 1 2 3\nf 1 2 5\nf 1 1 2\n");
+  EXPECT_EQ(mesh_of(model).triangles, (Triangles{{0, 1, 2}}));
+  EXPECT_EQ(
+      warnings_of(model),
+      (Strings{"model.obj:7:1: warning: 2 triangles without an area left out; the first is in this face\n"
+               "    f 1 2 5\n"
+               "    ^"}));
+}
+
+TEST(Obj, PointsLinesAndWhatIsUnknownGiveOneWarningEach) {
+  const Model model = obj(square + "p 1 2\nl 1 2 3\nl 2 3\ncurv 0 1 1 2\ncurv 0 1 2 3\nvw 1 2\nf 1 2 3\n");
+  EXPECT_EQ(
+      warnings_of(model),
+      (Strings{"model.obj:5:1: warning: 3 statements of points and lines skipped: they have no surface\n"
+               "    p 1 2\n"
+               "    ^",
+               "model.obj:8:1: warning: statement 'curv' is not supported; it is ignored wherever it stands\n"
+               "    curv 0 1 1 2\n"
+               "    ^",
+               "model.obj:10:1: warning: statement 'vw' is not supported; it is ignored wherever it stands\n"
+               "    vw 1 2\n"
+               "    ^"}));
+}
+
+TEST(Obj, AnyNumberOfUnknownStatementsGivesFewWarnings) {
+  std::string text = square + "f 1 2 3\n";
+  for (int i = 0; i < 1000; ++i) text += "word" + std::to_string(i) + "\n";
+  EXPECT_EQ(obj(text).warnings.size(), 20u);
+}
+
+// ---- normals ----
+
+TEST(Obj, FacesWithoutNormalsBesideOthersStayFlat) {
+  const Model model = obj(square + "vn 0 0 1\nf 1//1 2//1 3//1\ns 1\nf 1 3 4\n");
+  const Mesh& mesh = mesh_of(model);
+  ASSERT_EQ(mesh.normals.size(), 6u);
+  EXPECT_EQ(mesh.normals[0], (Vec3<float>{0, 0, 1}));
+  for (std::uint32_t i : mesh.triangles[1]) EXPECT_EQ(mesh.normals[i], (Vec3<float>{0, 0, 0}));
+}
+
+TEST(Obj, SmoothingGroupsAverageNormalsByArea) {
+  // A floor of area 2 x 1 and a wall of area 1 x 1 along the edge x = 0; their normals are +z and +x.
+  const std::string roof = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\n";
+  const Model smooth = obj(roof + "s 1\nf 1 2 3 4\nf 1 4 6 5\n");
+  const Mesh& mesh = mesh_of(smooth);
+  ASSERT_EQ(mesh.vertices.size(), 6u);
+  ASSERT_EQ(mesh.normals.size(), 6u);
+  const float five = std::sqrt(5.f);
+  for (int shared : {0, 3}) {  // (1, 0, 2) / sqrt 5
+    EXPECT_FLOAT_EQ(mesh.normals[shared].x, 1 / five);
+    EXPECT_FLOAT_EQ(mesh.normals[shared].z, 2 / five);
+  }
+  EXPECT_EQ(mesh.normals[1], (Vec3<float>{0, 0, 1}));
+  EXPECT_EQ(mesh.normals[4], (Vec3<float>{1, 0, 0}));
+
+  // In two groups the edge is sharp; faces outside of groups are flat.
+  const Model two = obj(roof + "s 1\nf 1 2 3 4\ns 2\nf 1 4 6 5\n");
+  EXPECT_EQ(mesh_of(two).vertices.size(), 8u);
+  for (std::uint32_t i : mesh_of(two).triangles[0])
+    EXPECT_EQ(mesh_of(two).normals[i], (Vec3<float>{0, 0, 1}));
+  const Model off = obj(roof + "s 1\nf 1 2 3 4\ns off\nf 1 4 6 5\n");
+  for (std::uint32_t i : mesh_of(off).triangles[2])
+    EXPECT_EQ(mesh_of(off).normals[i], (Vec3<float>{0, 0, 0}));
+  EXPECT_TRUE(mesh_of(obj(roof + "s 0\nf 1 2 3 4\nf 1 4 6 5\n")).normals.empty());
+}
+
+TEST(Obj, SmoothingCrossesSeamsOfTextureCoordinates) {
+  const std::string text =
+      "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nvt 0 0\nvt 1 1\ns 1\nf 1/1 2/1 3/1 4/1\nf 1/2 "
+      "4/2 6/2 5/2\n";
+  const Model model = obj(text);
+  const Mesh& mesh = mesh_of(model);
+  ASSERT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.normals[0], mesh.normals[4]);  // position 1, on both sides of the seam
+  EXPECT_GT(mesh.normals[0].x, 0);
+  EXPECT_GT(mesh.normals[0].z, 0);
+}
+
+// ---- materials ----
+
+TEST(Obj, MaterialsOfFaces) {
+  const Model model =
+      obj("mtllib a.mtl\n" + square +
+              "f 1 2 3\nusemtl red\nf 1 3 4\nusemtl blue\nf 1 2 4\nusemtl red\nf 2 3 4\nusemtl unused\n",
+          {{"a.mtl", "newmtl blue\nKd 0 0 1\nnewmtl unused\nKd 1 1 1\nnewmtl red\nKd 1 0 0\n"}});
+  ASSERT_EQ(model.materials.size(), 3u);  // in the order in which faces name them
+  EXPECT_EQ(model.materials[0].name, "default");
+  EXPECT_EQ(model.materials[1].name, "red");
+  EXPECT_EQ(model.materials[1].diffuse, (Rgb{{1, 0, 0}}));
+  EXPECT_EQ(model.materials[1].place.line, 5);
+  EXPECT_EQ(std::filesystem::path(model.materials[1].place.file).filename(), "a.mtl");
+  EXPECT_EQ(model.materials[2].name, "blue");
+  EXPECT_EQ(model.shapes[0].material_of_primitive, (std::vector<std::uint32_t>{0, 1, 2, 1}));
+  EXPECT_EQ(warnings_of(model), Strings{});
+}
+
+TEST(Obj, LibraryMayBeNamedAfterItsMaterials) {
+  const Model model =
+      obj(square + "usemtl red\nf 1 2 3\nmtllib a.mtl\n", {{"a.mtl", "newmtl red\nKd 1 0 0\n"}});
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].diffuse, (Rgb{{1, 0, 0}}));
+}
+
+TEST(Obj, NamesOfLibraries) {
+  const std::map<std::string, std::string> libraries{{"a.mtl", "newmtl a\nKd 1 0 0\n"},
+                                                     {"b c.mtl", "newmtl b c\nKd 0 1 0\n"}};
+  const std::string faces = square + "usemtl a\nf 1 2 3\nusemtl b c\nf 1 3 4\n";
+  const auto first = [&](const std::string& mtllib) {
+    const Model model = obj(mtllib + "\n" + faces, libraries);
+    return std::pair(model.materials.at(0).diffuse[0] == 1, model.materials.at(1).diffuse[0] == 0);
+  };
+  EXPECT_EQ(first("mtllib a.mtl"), std::pair(true, false));
+  EXPECT_EQ(first("mtllib b c.mtl"), std::pair(false, true));         // a blank in the name
+  EXPECT_EQ(first("mtllib a.mtl b\\ c.mtl"), std::pair(true, true));  // two, the blank kept by a backslash
+  EXPECT_EQ(first("mtllib a.mtl\nmtllib b c.mtl"), std::pair(true, true));
+  EXPECT_EQ(first("mtllib .\\a.mtl"), std::pair(true, false));                // as Windows writes it
+  EXPECT_EQ(first("mtllib C:\\made\\there\\a.mtl"), std::pair(true, false));  // beside the model
+}
+
+TEST(Obj, TheFirstLibraryWithAMaterialGivesIt) {
+  const Model model = obj("mtllib a.mtl b.mtl\n" + square + "usemtl m\nf 1 2 3\n",
+                          {{"a.mtl", "newmtl m\nKd 1 0 0\n"}, {"b.mtl", "newmtl m\nKd 0 1 0\n"}});
+  EXPECT_EQ(model.materials.at(0).diffuse, (Rgb{{1, 0, 0}}));
+}
+
+TEST(Obj, MissingLibrariesAndMaterialsAreGrey) {
+  const Model model = obj("mtllib no such.mtl\n" + square + "usemtl dark red\nf 1 2 3\n");
+  ASSERT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(model.materials[0].name, "dark red");
+  EXPECT_EQ(model.materials[0].place.line, 6);
+  EXPECT_EQ(model.materials[0].diffuse, (Rgb{{0.8, 0.8, 0.8}}));
+  EXPECT_EQ(
+      warnings_of(model),
+      (Strings{
+          "model.obj:1:8: warning: material library 'no such.mtl' is not there; its materials will be grey\n"
+          "    mtllib no such.mtl\n"
+          "           ^",
+          "model.obj:6:8: warning: material 'dark red' is not defined; it is grey\n"
+          "    usemtl dark red\n"
+          "           ^"}));
+  EXPECT_EQ(warnings_of(obj(square + "usemtl red\nf 1 2 3\n")),
+            (Strings{"model.obj:5:8: warning: material 'red' is not defined; it is grey\n"
+                     "    usemtl red\n"
+                     "           ^\n"
+                     "    hint: the file names no material library (mtllib)"}));
+}
+
+TEST(Obj, NamelessMaterials) {
+  const Model model = obj("mtllib a.mtl\n" + square + "f 1 2 3\nusemtl default\nf 1 3 4\n",
+                          {{"a.mtl", "newmtl default\nKd 1 0 0\n"}});
+  ASSERT_EQ(model.materials.size(), 2u);
+  EXPECT_EQ(model.materials[0].name, "default_2");
+  EXPECT_EQ(model.materials[1].name, "default");
+}
+
+TEST(Obj, ErrorsInALibraryNameTheLibrary) {
+  EXPECT_EQ(errors_of("mtllib a.mtl\n" + square + "f 1 2 9\n", {{"a.mtl", "newmtl a\nKd 1 0 zero\n"}}),
+            (Strings{"a.mtl:2:8: error: 'zero' is not a number\n"
+                     "    Kd 1 0 zero\n"
+                     "           ^",
+                     "model.obj:6:7: error: face refers to vertex 9, but only 4 are defined so far\n"
+                     "    f 1 2 9\n"
+                     "          ^"}));
+}
+
+// ---- what is wrong ----
+
+TEST(Obj, IndicesOutOfRange) {
+  EXPECT_EQ(errors_of("v 0 0 0\nf 1 2 0\n"),
+            (Strings{"model.obj:2:5: error: face refers to vertex 2, but only 1 is defined so far\n"
+                     "    f 1 2 0\n"
+                     "        ^"}));
+  EXPECT_EQ(errors_of(square + "f 1 0 3\n"),
+            (Strings{"model.obj:5:5: error: face refers to vertex 0, but they count from 1\n"
+                     "    f 1 0 3\n"
+                     "        ^"}));
+  EXPECT_EQ(errors_of(square + "f 1 2 -5\n"),
+            (Strings{"model.obj:5:7: error: face refers to vertex -5, but only 4 are defined so far\n"
+                     "    f 1 2 -5\n"
+                     "          ^"}));
+  EXPECT_EQ(errors_of(square + "f 1/1 2/1 3/1\n"),
+            (Strings{"model.obj:5:5: error: face refers to texture coordinate 1, but none is defined so far\n"
+                     "    f 1/1 2/1 3/1\n"
+                     "        ^"}));
+  EXPECT_EQ(errors_of(square + "vn 0 0 1\nf 1//1 2//2 3//1\n"),
+            (Strings{"model.obj:6:11: error: face refers to normal 2, but only 1 is defined so far\n"
+                     "    f 1//1 2//2 3//1\n"
+                     "              ^"}));
+  EXPECT_EQ(
+      errors_of(square + "f 1 2 99999999999999999999\n").at(0).substr(0, 95),
+      "model.obj:5:7: error: face refers to vertex 99999999999999999999, but only 4 are defined so far");
+}
+
+TEST(Obj, CornersThatAreNone) {
+  EXPECT_EQ(errors_of(square + "f 1 2 x\n"),
+            (Strings{"model.obj:5:7: error: 'x' is no corner of a face\n"
+                     "    f 1 2 x\n"
+                     "          ^\n"
+                     "    hint: corners are written v, v/vt, v//vn or v/vt/vn"}));
+  for (const char* corner : {"1.5", "/1", "1/x", "1//x", "1/1/1/1", "-", "1e0"})
+    EXPECT_EQ(errors_of(square + "vt 0 0\nvn 0 0 1\nf " + corner + " 2 3\n").size(), 1u) << corner;
+}
+
+TEST(Obj, CornersOfDifferentForms) {
+  EXPECT_EQ(errors_of(square + "vt 0 0\nf 1/1 2 3/1\n"),
+            (Strings{"model.obj:6:7: error: '2' and '1/1' name different things in one face\n"
+                     "    f 1/1 2 3/1\n"
+                     "          ^\n"
+                     "    hint: all corners of a face have the same form: v, v/vt, v//vn or v/vt/vn"}));
+}
+
+TEST(Obj, TooFewOfAnything) {
+  EXPECT_EQ(errors_of(square + "f 1 2\n"),
+            (Strings{"model.obj:5:6: error: a face needs at least 3 corners, found 2\n"
+                     "    f 1 2\n"
+                     "         ^"}));
+  EXPECT_EQ(errors_of("v 1 2\n").at(0),
+            "model.obj:1:6: error: a vertex needs 3 numbers, found 2\n    v 1 2\n         ^");
+  EXPECT_EQ(errors_of("vn 1 # 2 3\n").at(0),
+            "model.obj:1:11: error: a normal needs 3 numbers, found 1\n    vn 1 # 2 3\n              ^");
+  EXPECT_EQ(errors_of("vt\n").at(0),
+            "model.obj:1:3: error: a texture coordinate needs 1 number, found 0\n    vt\n      ^");
+}
+
+TEST(Obj, NumbersThatAreNone) {
+  for (const char* word : {"nan", "-inf", "1.#IND", "0x1", "1,5", "zero"})
+    EXPECT_EQ(errors_of("v 0 " + std::string(word) + " 0\n").at(0),
+              "model.obj:1:5: error: '" + std::string(word) +
+                  "' is not a number that a vertex can have\n    v 0 " + word + " 0\n        ^");
+  EXPECT_EQ(
+      errors_of("v 0 0 1e39\n").at(0),
+      "model.obj:1:7: error: '1e39' is too large: coordinates go up to 3.4e38\n    v 0 0 1e39\n          ^");
+  EXPECT_EQ(errors_of("s smooth\n").at(0),
+            "model.obj:1:3: error: a smoothing group is a number from 0 on, or 'off'\n    s smooth\n      ^");
+}
+
+TEST(Obj, ABrokenVertexDoesNotAccuseTheFacesBehindIt) {
+  EXPECT_EQ(errors_of("v 0 0 x\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").size(), 1u);
+}
+
+TEST(Obj, ErrorsAreCollectedUpToTwenty) {
+  std::string text = square;
+  for (int i = 0; i < 19; ++i) text += "f 1 2 9\n";
+  EXPECT_EQ(errors_of(text).size(), 19u);
+  for (int i = 0; i < 19; ++i) text += "f 1 2 9\n";
+  EXPECT_EQ(errors_of(text).size(), 20u);
+}
+
+TEST(Obj, WithoutFacesThereIsNoModel) {
+  EXPECT_EQ(errors_of(""), (Strings{"model.obj:1:1: error: the file is empty"}));
+  EXPECT_EQ(errors_of(square + "l 1 2\n"), (Strings{"model.obj:5:6: error: the file has no faces: it holds 4 "
+                                                    "vertices and 1 statement of points and lines, which "
+                                                    "have no surface\n"
+                                                    "    l 1 2\n"
+                                                    "         ^"}));
+  EXPECT_EQ(errors_of(square + "f 1 1 2\n"), (Strings{"model.obj:5:1: error: no face has an area\n"
+                                                      "    f 1 1 2\n"
+                                                      "    ^"}));
+}
+
+TEST(Obj, AMissingFileIsNamed) {
+  const test::TemporaryDirectory folder;
+  try {
+    import_obj(folder.file("no.obj"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics().at(0).message,
+              "cannot open '" + folder.file("no.obj") + "': No such file or directory");
+  }
+}
+
+TEST(Obj, AnyTextIsReadOrRefused) {
+  EXPECT_TRUE(rc::check("random statements give a sound mesh or errors with lines", [] {
+    const auto words = *rc::gen::container<std::vector<std::string>>(rc::gen::element<std::string>(
+        "v", "f", "vn", "vt", "s", "usemtl", "mtllib", "\n", "\n", "\nv 0 1 2", "\nf 1 2 3 4 5",
+        "\nf -1 -2 -3", "0", "1", "2", "-1", "1/1", "1//1", ".5", "1e30", "\\\n", "#", "/", "x"));
+    std::string text = *rc::gen::element<std::string>("", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n");
+    for (const std::string& word : words) text += word + " ";
+    try {
+      const Model model = obj(text);
+      const Mesh& mesh = mesh_of(model);
+      RC_ASSERT(!mesh.triangles.empty());
+      for (const auto& t : mesh.triangles)
+        for (const std::uint32_t i : t) RC_ASSERT(i < mesh.vertices.size());
+    } catch (const InputError& error) {
+      RC_ASSERT(!error.diagnostics().empty());
+      RC_ASSERT(error.diagnostics()[0].place.line > 0);
+    }
+  }));
+}
+
+// ---- files of others ----
+
+TEST(Obj, EveryFileOfTheCorpusIsReadOrRefusedWithItsPlace) {
+  const auto data = test::data_dir();
+  if (!data) GTEST_SKIP() << "the files of others are not here; LAMBENT_DATA may name their folder";
+  int read = 0, refused = 0;
+  for (const char* part : {"obj", "invalid-mesh"}) {
+    const std::filesystem::path folder = std::filesystem::path(*data) / part;
+    if (!std::filesystem::is_directory(folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      if (entry.path().extension() != ".obj") continue;
+      SCOPED_TRACE(entry.path().string());
+      try {
+        const Model model = import_model(entry.path().string());
+        ASSERT_EQ(model.shapes.size(), 1u);
+        const Mesh& mesh = mesh_of(model);
+        EXPECT_FALSE(mesh.triangles.empty());
+        EXPECT_TRUE(std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3<float>& v) {
+          return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+        }));
+        EXPECT_TRUE(mesh.normals.empty() || mesh.normals.size() == mesh.vertices.size());
+        EXPECT_TRUE(std::all_of(mesh.normals.begin(), mesh.normals.end(), [](const Vec3<float>& n) {
+          return n == Vec3<float>{} || std::abs(length(n) - 1) < 1e-6f;
+        }));
+        EXPECT_TRUE(mesh.uvs.empty() || mesh.uvs.size() == mesh.vertices.size());
+        for (const auto& t : mesh.triangles)
+          for (const std::uint32_t i : t) ASSERT_LT(i, mesh.vertices.size());
+        const auto& of = model.shapes[0].material_of_primitive;
+        EXPECT_TRUE(of.empty() || of.size() == mesh.triangles.size());
+        for (const std::uint32_t i : of) ASSERT_LT(i, model.materials.size());
+        EXPECT_FALSE(model.materials.empty());
+        ++read;
+      } catch (const InputError& error) {
+        ASSERT_FALSE(error.diagnostics().empty());
+        EXPECT_EQ(error.diagnostics()[0].place.file, entry.path().string());
+        EXPECT_GT(error.diagnostics()[0].place.line, 0);
+        EXPECT_FALSE(error.diagnostics()[0].message.empty());
+        ++refused;
+      }
+    }
+  }
+  if (read + refused == 0) GTEST_SKIP() << "the folder with files of others holds no OBJ files";
+  EXPECT_GT(read, refused);
+}
+
+// ---- which format a file has ----
+
+TEST(Import, TheEndingNamesTheFormat) {
+  EXPECT_TRUE(is_model_file("a/b.obj"));
+  EXPECT_TRUE(is_model_file("A.OBJ"));
+  EXPECT_TRUE(is_model_file("balls.Nff"));
+  EXPECT_FALSE(is_model_file("scene.yaml"));
+  EXPECT_FALSE(is_model_file("obj"));
+  EXPECT_FALSE(is_model_file(""));
+  EXPECT_EQ(model_file_endings(), ".obj, .nff");
+}
+
+TEST(Import, AnUnknownEndingIsAnswered) {
+  try {
+    import_model("teapot.xyz");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(printed(error.diagnostics().at(0)),
+              "teapot.xyz: error: the ending of 'teapot.xyz' names no model format\n    hint: known endings: "
+              ".obj, .nff");
+  }
+}
+
+}  // namespace
+}  // namespace lambent

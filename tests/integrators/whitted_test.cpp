@@ -1,0 +1,364 @@
+// The whole renderer against closed forms: what a pixel must be, computed beside it by the textbook.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "integrators/kernels.h"
+#include "lambent/lambent.h"
+#include "math/transform.h"
+
+namespace lambent {
+namespace {
+
+using V = Vec3<double>;
+
+Image picture(const std::string& yaml, const RenderOptions& options = {}) { return render(parse_scene(yaml), options).image; }
+
+/// The camera ray through the centre of a pixel, by the definition of docs/scene-format.md.
+V pixel_ray(int x, int y, int width, int height, double fov) {
+  const double k = std::tan(fov / 2 * M_PI / 180), u = (x + 0.5 - width / 2.0) / (height / 2.0), v = (height / 2.0 - (y + 0.5)) / (height / 2.0);
+  return normalize(V{k * u, k * v, -1});  // looking along -z
+}
+
+// ---- one sphere, one light, each model ---------------------------------------------------------------------------------
+
+struct Expected {
+  const char* model;
+  double (*color)(const V& N, const V& L, const V& V_, double r, double R, double ka, double kd, double ks, double n);
+};
+double plus(double a) { return a > 0 ? a : 0; }
+
+const Expected every_model[] = {
+    // I = Ka Ia + Il Kd (N.L)+
+    {"conventional", [](const V& N, const V& L, const V&, double, double, double ka, double kd, double, double) { return ka + 8 * kd * plus(dot(N, L)); }},
+    // I = Ka Ia + Il Kd (N.L)+ / r^2
+    {"attenuated", [](const V& N, const V& L, const V&, double r, double, double ka, double kd, double, double) { return ka + 8 / (r * r) * kd * plus(dot(N, L)); }},
+    // I = Ka Ia / R + Il / r [ Kd (N.L)+ + Ks ((R.V)+)^n ],  R = 2 (N.L) N - L
+    {"phong", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+       const V mirrored = 2 * dot(N, L) * N - L;
+       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(mirrored, E)), n) : 0));
+     }},
+    // the same with (N.H)+, H = (L + V) / |L + V|
+    {"blinn_phong", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+       const V H = normalize(L + E);
+       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+     }},
+    // the same with H = (L + V) / 2
+    {"blinn_phong_halfway", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+       const V H = 0.5 * (L + E);
+       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+     }},
+};
+
+TEST(OneSphereOneLight, EveryModelToOneMillionth) {
+  for (const Expected& expected : every_model)
+    for (double n : {1.0, 32.0, 200.0}) {
+      const Image image = picture(fmt::format(R"(
+lambent: 1
+camera: {{eye: [0, 0, 5], target: [0, 0, 0], fov: 40}}
+image: {{size: [64, 48]}}
+illumination: {{model: {}}}
+lights: [{{point: {{position: [3, 4, 5], intensity: 8}}}}]
+materials: [{{name: m, ambient: [0.1, 0.02, 0.05], diffuse: [0.8, 0.1, 0.4], specular: [0.5, 0.6, 0.7], shininess: {}}}]
+objects: [{{sphere: {{center: [0.1, 0.2, -0.3], radius: 1.2}}, material: m}}]
+)", expected.model, n));
+      const V center{0.1, 0.2, -0.3}, eye{0, 0, 5}, light{3, 4, 5};
+      const double ka[] = {0.1, 0.02, 0.05}, kd[] = {0.8, 0.1, 0.4}, ks[] = {0.5, 0.6, 0.7};
+      int on_sphere = 0, lit = 0;
+      for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x) {
+          const V d = pixel_ray(x, y, 64, 48, 40);
+          const double b = dot(center - eye, d), disc = b * b - dot(center - eye, center - eye) + 1.2 * 1.2;
+          if (disc < 0) {
+            EXPECT_EQ(image.pixel(x, y)[0], 0);
+            continue;
+          }
+          if (disc < 1e-3) continue;  // the rim, where the sphere's point is ill-conditioned
+          const double R = b - std::sqrt(disc);
+          const V P = eye + R * d, N = (P - center) / 1.2, L = normalize(light - P);
+          ++on_sphere;
+          lit += dot(N, L) > 0;
+          for (int c = 0; c < 3; ++c) {
+            const double want = expected.color(N, L, -d, length(light - P), R, ka[c], kd[c], ks[c], n);
+            EXPECT_NEAR(image.pixel(x, y)[c] / want, 1, 1e-6) << expected.model << " at " << x << ", " << y << " n " << n;
+          }
+        }
+      EXPECT_GT(on_sphere, 500);
+      EXPECT_GT(lit, 300);
+    }
+}
+
+TEST(OneSphereOneLight, EveryModelOfTheRegistryIsAmongThem) {
+  for (const ModelInfo& model : model_infos) {
+    bool found = false;
+    for (const Expected& expected : every_model) found |= std::string(expected.model) == model.name;
+    EXPECT_TRUE(found) << "write the closed form of " << model.name << " into this file";
+  }
+}
+
+// ---- distances ---------------------------------------------------------------------------------------------------------
+
+TEST(Distances, RGrowsOverAllBouncesBetweenTwoMirrors) {
+  // Mirrors at z = 0 and z = 4, the eye between them at z = 3, looking at z = 0. Hit k (from 0) lies at R = 3 + 4k:
+  // I = sum over k < depth of rho^k Ka Ia / (3 + 4k).
+  for (int depth : {1, 2, 5, 20}) {
+    const Image image = picture(fmt::format(R"(
+lambent: 1
+camera: {{eye: [0, 0, 3], target: [0, 0, 0], fov: 10}}
+image: {{size: [1, 1]}}
+illumination: {{model: phong}}
+integrator: {{whitted: {{max_depth: {}}}}}
+materials: [{{name: mirror, ambient: [0.9, 0.5, 0.2], diffuse: 0, reflect: [0.5, 0.8, 0.9]}}]
+objects:
+  - {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}, material: mirror}}
+  - {{plane: {{point: [0, 0, 4], normal: [0, 0, -1]}}, material: mirror}}
+)", depth));
+    const double ka[] = {0.9, 0.5, 0.2}, rho[] = {0.5, 0.8, 0.9};
+    for (int c = 0; c < 3; ++c) {
+      double want = 0;
+      for (int k = 0; k < depth; ++k) want += std::pow(rho[c], k) * ka[c] / (3 + 4 * k);
+      EXPECT_NEAR(image.pixel(0, 0)[c] / want, 1, 1e-6);
+    }
+  }
+}
+
+TEST(Distances, MinimumKeepsTheAmbientTermFinite) {
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 0.25], target: [0, 0, 0], fov: 10}
+image: {size: [1, 1]}
+illumination: {model: phong, minimum_distance: 0.5}
+materials: [{name: m, ambient: 0.3, diffuse: 0}]
+objects: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: m}]
+)");
+  EXPECT_NEAR(image.pixel(0, 0)[0], 0.3 / 0.5, 1e-7);  // R = 0.25 counts as 0.5
+}
+
+// ---- refraction --------------------------------------------------------------------------------------------------------
+
+TEST(Refraction, AGlassSlabShiftsTheRay) {
+  // A slab of thickness d and index n shifts a ray by d sin(a) (1 - cos a / sqrt(n^2 - sin^2 a)), without turning it.
+  // Behind it a matt wall lit by a lamp nearby says where the ray has gone: I = Kd N.L there.
+  const double d = 0.5, n = 1.5, a = 40 * M_PI / 180;
+  const Image image = picture(fmt::format(R"(
+lambent: 1
+camera: {{projection: orthographic, eye: [{}, 0, {}], target: [0, 0, 0], height: 0.01}}
+image: {{size: [1, 1]}}
+illumination: {{model: conventional}}
+integrator: {{whitted: {{shadows: false}}}}
+lights: [{{point: {{position: [0.3, 0, -0.4]}}}}]
+materials:
+  - {{name: glass, ambient: 0, diffuse: 0, transmit: 1, ior: 1.5}}
+  - {{name: wall, ambient: 0, diffuse: 1}}
+objects:
+  - {{box: {{min: [-5, -5, 0], max: [5, 5, {}]}}, material: glass}}
+  - {{plane: {{point: [0, 0, -1], normal: [0, 0, 1]}}, material: wall}}
+)", 5 * std::sin(a), 5 * std::cos(a), d));
+  const double shift = d * std::sin(a) * (1 - std::cos(a) / std::sqrt(n * n - std::sin(a) * std::sin(a)));
+  // Without glass the ray meets the wall at x = -tan(a); the shift moves it towards +x by shift / cos(a).
+  const double x = -std::tan(a) + shift / std::cos(a);
+  const double want = 0.6 / std::hypot(0.3 - x, 0.6);  // N.L = height / distance
+  EXPECT_NEAR(image.pixel(0, 0)[0] / want, 1, 1e-6);
+}
+
+/// The eye below the surface of glass, a white floor further down, a blue sky above; looking up at `angle` from the vertical.
+Image looking_out(double angle) {
+  return picture(fmt::format(R"(
+lambent: 1
+camera: {{eye: [0, -1, 0], target: [{}, 0, 0], fov: 1}}
+image: {{size: [1, 1]}}
+background: [0, 0, 1]
+materials:
+  - {{name: glass, ambient: 0, diffuse: 0, reflect: 0.125, transmit: 0.5, ior: 1.5}}
+  - {{name: floor, ambient: 0, diffuse: 0, emission: [1, 0.5, 0]}}
+objects:
+  - {{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}, material: glass}}
+  - {{plane: {{point: [0, -2, 0], normal: [0, 1, 0]}}, material: floor}}
+)", std::tan(angle * M_PI / 180)));
+}
+
+TEST(Refraction, TotalBeyondTheCriticalAngle) {
+  // Critical angle: asin(1 / 1.5) = 41.81 degrees.
+  const Image before = looking_out(41.7), beyond = looking_out(41.9);
+  EXPECT_FLOAT_EQ(before.pixel(0, 0)[0], 0.125f);         // reflect * floor
+  EXPECT_FLOAT_EQ(before.pixel(0, 0)[2], 0.5f);           // transmit * sky
+  EXPECT_FLOAT_EQ(beyond.pixel(0, 0)[0], 0.125f + 0.5f);  // what cannot leave goes with the mirror ray
+  EXPECT_FLOAT_EQ(beyond.pixel(0, 0)[1], 0.5f * (0.125f + 0.5f));
+  EXPECT_FLOAT_EQ(beyond.pixel(0, 0)[2], 0);
+}
+
+TEST(Whitted, NothingIsTakenFromTheLocalColour) {
+  // I + reflect * mirror + transmit * refracted: 0.25 (emission) + 0.5 * sky + 0.75 * sky behind, ior 1.
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 3], target: [0, 0, 0]}
+image: {size: [1, 1]}
+background: [1, 2, 4]
+materials: [{name: m, ambient: 0, diffuse: 0, emission: 0.25, reflect: 0.5, transmit: 0.75, ior: 1}]
+objects: [{disc: {center: [0, 0, 0], normal: [0, 0, 1], radius: 1}, material: m}]
+)");
+  for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(image.pixel(0, 0)[c], 0.25f + 1.25f * float(1 << c));
+}
+
+// ---- shadows -----------------------------------------------------------------------------------------------------------
+
+/// Brightness of the floor below something at height 1, the light at height 3.
+Image shadow_of(const std::string& thing, const std::string& whitted = "") {
+  return picture(R"(
+lambent: 1
+camera: {eye: [5, 2, 0], target: [0, 0, 0], fov: 1}
+image: {size: [1, 1]}
+illumination: {model: conventional}
+integrator: {whitted: {)" + whitted + R"(}}
+lights: [{point: {position: [0, 3, 0]}}]
+materials:
+  - {name: floor, ambient: 0, diffuse: 1}
+  - {name: opaque}
+  - {name: glass, transmit: [1, 0.5, 0.25]}
+  - {name: dark, transmit: [1, 0, 0]}
+objects:
+  - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: floor}
+)" + thing);
+}
+
+TEST(Shadows, AreHardAndTintedByWhatTransmits) {
+  const auto expect = [](const Image& image, double r, double g, double b) {
+    EXPECT_FLOAT_EQ(image.pixel(0, 0)[0], float(r));
+    EXPECT_FLOAT_EQ(image.pixel(0, 0)[1], float(g));
+    EXPECT_FLOAT_EQ(image.pixel(0, 0)[2], float(b));
+  };
+  const std::string sphere = "  - {sphere: {center: [0, 1, 0], radius: 0.3}, material: ", disc = "  - {disc: {center: [0, 1.5, 0], normal: [0, 1, 0], radius: 0.3}, material: ";
+  expect(shadow_of(""), 1, 1, 1);
+  expect(shadow_of(sphere + "opaque}\n"), 0, 0, 0);
+  expect(shadow_of(sphere + "opaque}\n", "shadows: false"), 1, 1, 1);
+  expect(shadow_of(disc + "glass}\n"), 1, 0.5, 0.25);
+  expect(shadow_of(sphere + "glass}\n"), 1, 0.25, 0.0625);  // in and out: transmit twice
+  expect(shadow_of(sphere + "glass}\n" + disc + "dark}\n"), 1, 0, 0);
+  expect(shadow_of(sphere + "glass}\n" + disc + "opaque}\n"), 0, 0, 0);
+  expect(shadow_of(sphere + "glass}\n", "colored_shadows: false"), 0, 0, 0);
+  expect(shadow_of("  - {disc: {center: [0, 4, 0], normal: [0, 1, 0], radius: 9}, material: opaque}\n"), 1, 1, 1);  // behind the light
+}
+
+TEST(Shadows, NoRayTowardsALightBehindTheSurface) {
+  const auto scene = [](double height) {
+    return parse_scene(fmt::format(R"(
+lambent: 1
+camera: {{projection: orthographic, eye: [0, 5, 0], target: [0, 0, 0], up: [0, 0, -1], height: 1}}
+image: {{size: [8, 8]}}
+lights: [{{point: {{position: [0, {}, 0]}}}}]
+objects: [{{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}}}]
+)", height));
+  };
+  EXPECT_EQ(render(scene(1)).stats.rays.shadow, 64u);
+  EXPECT_EQ(render(scene(-1)).stats.rays.shadow, 0u);
+}
+
+// ---- cameras -----------------------------------------------------------------------------------------------------------
+
+TEST(Cameras, OrthographicSeesHeightAndKeepsSizes) {
+  // A disc of radius 0.25 in a view of height 1 and 100 pixels: its area is pi 25^2 pixels, wherever it stands.
+  for (double z : {0.0, -7.0}) {
+    const auto result = render(parse_scene(fmt::format(R"(
+lambent: 1
+camera: {{projection: orthographic, eye: [0, 0, 3], target: [0, 0, 0], height: 1}}
+image: {{size: [100, 100]}}
+objects: [{{disc: {{center: [0, 0, {}], normal: [0, 0, 1], radius: 0.25}}}}]
+)", z)));
+    EXPECT_NEAR(double(result.stats.rays.eye_hits), M_PI * 25 * 25, 30);
+  }
+}
+
+TEST(Cameras, RowZeroIsTheTopAndRightIsRight) {
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0], fov: 40}
+image: {size: [3, 3]}
+materials:
+  - {name: red, ambient: 0, diffuse: 0, emission: [1, 0, 0]}
+  - {name: green, ambient: 0, diffuse: 0, emission: [0, 1, 0]}
+objects:
+  - {sphere: {center: [0, 1.2, 0], radius: 0.3}, material: red}
+  - {sphere: {center: [1.2, 0, 0], radius: 0.3}, material: green}
+)");
+  EXPECT_EQ(image.pixel(1, 0)[0], 1);
+  EXPECT_EQ(image.pixel(2, 1)[1], 1);
+  EXPECT_EQ(image.pixel(0, 1)[1], 0);
+  EXPECT_EQ(image.pixel(1, 2)[0], 0);
+}
+
+// ---- the same bits -----------------------------------------------------------------------------------------------------
+
+const char* everything = R"(
+lambent: 1
+camera: {eye: [0, 2.5, 6], target: [0, 0.6, 0], fov: 40}
+image: {size: [97, 61], samples: 3, filter: tent}
+illumination: {model: phong}
+background: [0.2, 0.3, 0.5]
+lights:
+  - {point: {position: [3, 4, 4], intensity: 4}}
+  - {spot: {position: [-3, 5, 1], target: [0, 0, 0], intensity: 6, angle: 50}}
+  - {directional: {direction: [1, -2, -1], intensity: 0.2}}
+materials:
+  - {name: floor, diffuse: [0.6, 0.6, 0.5], reflect: 0.1}
+  - {name: red, diffuse: [0.8, 0.1, 0.1], specular: 0.5, reflect: 0.2}
+  - {name: glass, ambient: 0, diffuse: 0.05, specular: 0.8, shininess: 200, reflect: 0.1, transmit: [0.8, 0.9, 0.8], ior: 1.5}
+  - {name: blinn, model: blinn_phong, diffuse: [0.1, 0.3, 0.8], specular: 0.4}
+  - {name: matt, model: attenuated, diffuse: [0.8, 0.8, 0.2]}
+objects:
+  - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: floor}
+  - {sphere: {center: [-1.2, 0.6, 0], radius: 0.6}, material: red}
+  - {sphere: {center: [0.3, 0.7, 1], radius: 0.7}, material: glass}
+  - {box: {min: [-0.4, 0, -0.4], max: [0.4, 0.8, 0.4]}, material: blinn, transform: [{rotate: {axis: y, degrees: 30}}, {translate: [1.5, 0, -0.5]}]}
+  - {cone: {from: [-0.3, 0, -1.5], to: [-0.3, 1.6, -1.5], radius_from: 0.5, radius_to: 0.1, capped: true}, material: matt}
+  - {sphere: {center: [0, 0, 0], radius: 0.5}, material: matt, transform: [{scale: [1, 0.4, 0.6]}, {translate: [2.2, 0.3, 1]}]}
+)";
+
+TEST(SameBits, WhateverTheThreadsTilesAndInstructionSet) {
+  const ScenePtr scene = parse_scene(everything);
+  const RenderResult reference = render(scene, {.threads = 1, .tile_size = 32, .isa = "baseline", .progress = {}});
+  const auto expect_same = [&](const RenderOptions& options) {
+    const RenderResult result = render(scene, options);
+    ASSERT_EQ(result.image.data.size(), reference.image.data.size());
+    EXPECT_EQ(std::memcmp(result.image.data.data(), reference.image.data.data(), result.image.data.size() * sizeof(float)), 0)
+        << options.threads << " threads, tiles of " << options.tile_size << ", " << result.stats.isa;
+    EXPECT_EQ(result.metadata, reference.metadata);
+    EXPECT_EQ(result.stats.rays.shadow, reference.stats.rays.shadow);
+    EXPECT_EQ(result.stats.rays.refraction, reference.stats.rays.refraction);
+  };
+  for (int threads : {1, 2, 3, 7})
+    for (int tile : {1, 5, 16, 64, 1000}) expect_same({threads, tile, "", {}});
+  for (const std::string& isa : available_isas()) expect_same({2, 32, isa, {}});
+}
+
+TEST(SameBits, APixelDoesNotDependOnTheOthers) {
+  // The same rays in a picture of another width would differ; but what a pixel shows does not depend on who is beside it in a packet.
+  const ScenePtr scene = parse_scene(everything);
+  const Image whole = render(scene).image;
+  const Image tiny = render(scene, {1, 1, "", {}}).image;  // one pixel at a time
+  EXPECT_EQ(whole.data, tiny.data);
+}
+
+TEST(Cancelling, StopsAndSaysSo) {
+  int calls = 0;
+  const RenderResult result = render(parse_scene(everything), {.threads = 2, .tile_size = 8, .isa = "", .progress = [&](double) { return ++calls < 3; }});
+  EXPECT_TRUE(result.cancelled);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(Isa, AnUnknownNameListsTheKnown) {
+  try {
+    render(parse_scene(everything), {.threads = 1, .tile_size = 32, .isa = "mmx", .progress = {}});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics()[0].message, "no kernels for the instruction set 'mmx' on this machine");
+    EXPECT_NE(error.diagnostics()[0].hint.find("baseline"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace lambent
