@@ -56,6 +56,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   RenderResult result;
   result.image = develop(prepared->film, scene->image);
   result.metadata = settings_metadata(*scene);
+  result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;
   result.stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow};

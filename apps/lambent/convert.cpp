@@ -42,7 +42,7 @@ ExitCode run(const ConvertCommand& command) {
   if (is_image_file(command.from) && is_image_file(command.to)) {
     check_output(command.to);
     const ReadImage picture = read_image(command.from);
-    write_image(command.to, picture.image, picture.metadata, {command.bits});
+    write_image(command.to, picture.image, picture.metadata, {command.bits, true});
   } else if (!is_image_file(command.from) && (to == ".yaml" || to == ".yml")) {
     scene_from_model(command);
   } else if (is_image_file(command.to)) {

@@ -25,8 +25,11 @@ std::string dumped(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string line(std::string_view label, std::string_view text) {
-  return text.empty() ? fmt::format("  {}\n", label) : fmt::format("  {:<{}}{}\n", label, label_width, text);
+/// "  label       text", the text wrapped behind the label.
+std::string line(std::string_view label, std::string_view text, int width) {
+  const std::string lines = wrapped(text, width, 2 + label_width);
+  return lines.empty() ? fmt::format("  {}\n", label)
+                       : fmt::format("  {:<{}}{}", label, label_width, lines.substr(2 + label_width));
 }
 
 bool has_bounds(const SceneSummary& summary) { return summary.lower[0] <= summary.upper[0]; }
@@ -65,7 +68,7 @@ std::string scene_as_json(const SceneSummary& summary) {
 }
 
 std::string items_as_text(std::string_view title, const std::vector<SceneSummary::Item>& items, int width) {
-  std::string text = line(title, std::to_string(items.size()));
+  std::string text = line(title, std::to_string(items.size()), width);
   const std::size_t shown = std::min(most_items, items.size());
   std::size_t name_width = 0;
   for (std::size_t i = 0; i < shown; ++i)
@@ -92,28 +95,31 @@ std::string items_as_text(std::string_view title, const std::vector<SceneSummary
 
 std::string scene_as_text(const SceneSummary& summary, int width) {
   std::string text = summary.name + "\n";
-  text += line("camera", summary.camera);
-  text += line("image", fmt::format("{} x {}, {} per pixel", summary.width, summary.height,
-                                    counted(std::size_t(summary.samples), "sample")));
-  text += line("model", summary.model);
-  text += line("integrator", summary.integrator);
+  text += line("camera", summary.camera, width);
+  text += line("image",
+               fmt::format("{} x {}, {} per pixel", summary.width, summary.height,
+                           counted(std::size_t(summary.samples), "sample")),
+               width);
+  text += line("model", summary.model, width);
+  text += line("integrator", summary.integrator, width);
   const double* l = summary.lower;
   const double* u = summary.upper;
-  text +=
-      line("bounds", has_bounds(summary) ? fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})",
-                                                       l[0], l[1], l[2], u[0], u[1], u[2])
-                                         : "none");
+  text += line("bounds",
+               has_bounds(summary) ? fmt::format("({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", l[0],
+                                                 l[1], l[2], u[0], u[1], u[2])
+                                   : "none",
+               width);
   std::string stored;
   const auto add = [&](std::uint64_t count, const char* noun) {
     if (count > 0) stored += (stored.empty() ? "" : ", ") + counted(count, noun);
   };
   add(summary.triangles, "triangle");
+  if (summary.triangles > 0) stored += fmt::format(" on {} vertices", summary.vertices);
   add(summary.spheres, "sphere");
   add(summary.cones, "cone");
   add(summary.discs, "disc");
   add(summary.planes, "plane");
-  if (summary.vertices > 0) stored += fmt::format(" on {} vertices", summary.vertices);
-  text += line("stored", stored.empty() ? "nothing" : stored);
+  text += line("stored", stored.empty() ? "nothing" : stored, width);
   text += items_as_text("objects", summary.objects, width);
   text += items_as_text("lights", summary.lights, width);
   text += items_as_text("materials", summary.materials, width);
@@ -167,10 +173,21 @@ std::string image_as_json(const std::string& path, const ReadImage& read) {
   return dumped(json);
 }
 
-std::string image_as_text(const std::string& path, const ReadImage& read) {
+/// `text` without newlines at its end, its second and later lines after `indent` spaces.
+std::string with_lines_indented(std::string_view text, int indent) {
+  while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+  std::string result;
+  for (const char c : text) {
+    result += c;
+    if (c == '\n') result.append(std::size_t(indent), ' ');
+  }
+  return result;
+}
+
+std::string image_as_text(const std::string& path, const ReadImage& read, int width) {
   std::string text = path + "\n";
-  text += line("size", fmt::format("{} x {}", read.image.width, read.image.height));
-  text += line("channels", fmt::format("{}, linear values:", read.image.channels.size()));
+  text += line("size", fmt::format("{} x {}", read.image.width, read.image.height), width);
+  text += line("channels", fmt::format("{}, linear values:", read.image.channels.size()), width);
   for (std::size_t c = 0; c < read.image.channels.size(); ++c) {
     const ChannelRange range = range_of(read.image, c);
     text += fmt::format("    {}: ", read.image.channels[c]);
@@ -180,8 +197,10 @@ std::string image_as_text(const std::string& path, const ReadImage& read) {
     if (range.not_finite > 0) text += fmt::format(", {} not finite", range.not_finite);
     text += "\n";
   }
-  text += line("metadata", read.metadata.empty() ? "none" : "");
-  for (const auto& [key, value] : read.metadata) text += fmt::format("    {}: {}\n", key, value);
+  text += line("metadata", read.metadata.empty() ? "none" : "", width);
+  for (const auto& [key, value] : read.metadata) {
+    text += fmt::format("    {}: {}\n", key, with_lines_indented(value, 6));
+  }
   return text;
 }
 
@@ -190,7 +209,8 @@ std::string image_as_text(const std::string& path, const ReadImage& read) {
 ExitCode run(const InfoCommand& command) {
   if (is_image_file(command.input)) {
     const ReadImage read = read_image(command.input);
-    print(command.json ? image_as_json(command.input, read) : harmless(image_as_text(command.input, read)));
+    print(command.json ? image_as_json(command.input, read)
+                       : harmless(image_as_text(command.input, read, columns(1))));
   } else {
     const SceneSummary summary = summarize(load_scene(command.input));
     print(command.json ? scene_as_json(summary) : harmless(scene_as_text(summary, columns(1))));

@@ -92,7 +92,7 @@ ExitCode run(const RenderCommand& command) {
 
   const Stopwatch writing;
   for (const std::string& output : outputs)
-    write_image(output, result.image, result.metadata, {command.bits});
+    write_image(output, result.image, result.metadata, {command.bits, result.write.png_encoded});
   Stats& stats = result.stats;
   stats.seconds.parse = parse_seconds;
   stats.seconds.write = writing.seconds();

@@ -23,10 +23,11 @@ struct Image {
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
 struct WriteOptions {
-  int png_bits = 8;  ///< 8 or 16.
+  int png_bits = 8;         ///< 8 or 16.
+  bool png_encoded = true;  ///< Whether a PNG holds sRGB-encoded values; if not, the linear values as they are.
 };
 
-/// Write `image` to `path`; its ending (.png or .exr) names the format. PNG is sRGB-encoded and clamped to [0, 1]; EXR
+/// Write `image` to `path`; its ending (.png or .exr) names the format. PNG is sRGB-encoded (unless the options say otherwise) and clamped to [0, 1]; EXR
 /// is linear float, every channel. The file appears under its name only once it is whole: a failure leaves
 /// whatever stood there before.
 /// Throws InputError for an unknown ending, Failure where the file cannot be written.

@@ -88,6 +88,7 @@ struct RenderOptions {
 struct RenderResult {
   Image image;        ///< R, G, B, linear. Incomplete where `cancelled`.
   Metadata metadata;  ///< The settings that made it; nothing that changes from run to run.
+  WriteOptions write; ///< How the scene wants it written.
   Stats stats;
   bool cancelled = false;
 };

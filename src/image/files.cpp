@@ -72,7 +72,7 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
                                        : "unknown picture format '" + ending + "'",
                         "the endings known are .png and .exr");
   check_picture(image, path);
-  write_bytes(path, ending == ".png" ? encode_png(image, metadata, options.png_bits, path)
+  write_bytes(path, ending == ".png" ? encode_png(image, metadata, options, path)
                                      : encode_exr(image, metadata, path));
 }
 

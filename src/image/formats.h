@@ -18,7 +18,8 @@ inline constexpr std::uint64_t largest_sample_count = std::uint64_t(1) << 30;
 /// sRGB-encoded, A is not; A is taken as it is, neither multiplied into the colours nor divided out. Other
 /// channels are left out. Keys that PNG does not allow as keywords are kept whole in iTXt's translated
 /// keyword. `path` is for messages only. Throws InputError where the picture has no colours.
-std::string encode_png(const Image& image, const Metadata& metadata, int bits, const std::string& path);
+std::string encode_png(const Image& image, const Metadata& metadata, const WriteOptions& options,
+                       const std::string& path);
 
 /// Every channel as 32-bit float, ZIP-compressed scan lines; nothing in the file changes from run to run. Of
 /// metadata with equal keys the last stays. Throws InputError where a channel's name or a key cannot be

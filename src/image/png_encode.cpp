@@ -38,7 +38,8 @@ Selection select_channels(const Image& image, const std::string& path) {
   return selection;
 }
 
-void encode_row(const Image& image, int y, const Selection& selection, int bits, std::vector<png_byte>& row) {
+void encode_row(const Image& image, int y, const Selection& selection, const WriteOptions& options, std::vector<png_byte>& row) {
+  const int bits = options.png_bits;
   const SrgbQuantizer& color = srgb_quantizer(bits);
   const int maximum = (1 << bits) - 1;
   png_byte* out = row.data();
@@ -48,7 +49,7 @@ void encode_row(const Image& image, int y, const Selection& selection, int bits,
   };
   for (int x = 0; x < image.width; ++x) {
     const float* pixel = image.pixel(x, y);
-    for (const std::size_t c : selection.colors) put(color(pixel[c]));
+    for (const std::size_t c : selection.colors) put(options.png_encoded ? color(pixel[c]) : quantize(double(pixel[c]), maximum));
     if (selection.alpha) put(quantize(double(pixel[*selection.alpha]), maximum));
   }
 }
@@ -86,7 +87,9 @@ void flush(png_structp) {}
 
 }  // namespace
 
-std::string encode_png(const Image& image, const Metadata& metadata, int bits, const std::string& path) {
+std::string encode_png(const Image& image, const Metadata& metadata, const WriteOptions& options,
+                       const std::string& path) {
+  const int bits = options.png_bits;
   if (bits != 8 && bits != 16)
     throw picture_error(path, "a PNG has 8 or 16 bits, not " + std::to_string(bits));
   const Selection selection = select_channels(image, path);
@@ -125,7 +128,7 @@ std::string encode_png(const Image& image, const Metadata& metadata, int bits, c
     png_write_info(png, info);
   });
   for (int y = 0; done && y < image.height; ++y) {
-    encode_row(image, y, selection, bits, row);
+    encode_row(image, y, selection, options, row);
     done = session.run([&] { png_write_row(png, row.data()); });
   }
   done = done && session.run([&] { png_write_end(png, nullptr); });

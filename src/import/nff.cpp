@@ -5,10 +5,10 @@
 // read as a stream of words. What the text leaves open, and how it is read here:
 //   - A negative radius shows only the inside; surfaces here have two sides, so its absolute value is taken.
 //   - `hither` cuts nothing off. Pixels are square, and `angle` is the vertical one.
-//   - Lights have "no particular value": sqrt(n)/(2n) for each of n lights, as in the databases' own rules.
-//   - Colours are those that a screen of the time showed, so they are decoded as sRGB; coefficients are
-//   numbers as they
-//     stand. So the databases' own pictures come out nearest, and their backgrounds exactly.
+//   - Lights have "no particular value", and the databases' text proposes sqrt(n)/(2n) for each of n lights and for the ambient light.
+//     Haines' own pictures were made otherwise: measured in them, each light is 1/sqrt(n), there is no ambient light, highlights are
+//     white, and the sums stand in the files as they are, not encoded for a screen. The pictures are what people compare
+//     with, so that is done here; the automatic scene says so, where it can be changed.
 //   - Objects before the first `f` are of a neutral grey, with a warning.
 
 #include <algorithm>
@@ -22,7 +22,6 @@
 
 #include "import/model.h"
 #include "import/text_file.h"
-#include "lambent/image.h"
 #include "scene/triangulate.h"
 
 namespace lambent {
@@ -203,8 +202,6 @@ class Reader {
     c[0] = number({"red"}, factors);
     c[1] = number({"green"}, factors);
     c[2] = number({"blue"}, factors);
-    for (int i = 0; i < 3; ++i)
-      if (c[i] < 1) c[i] = linear_from_srgb(c[i]);  // above 1 sRGB has no meaning
     return c;
   }
 
@@ -265,6 +262,7 @@ class Reader {
     if (length(cross(way, camera.up)) <= 1e-9 * length(way) * length(camera.up))
       fail(up_word, camera.up == Vec3<double>{} ? "the direction 'up' is zero"
                                                 : "the direction 'up' is along the way from 'from' to 'at'");
+    image.encoding = Encoding::none;
     model_.camera = camera;
     model_.image = image;
   }
@@ -327,12 +325,9 @@ class Reader {
     material.name = fmt::format("fill {}", material_of_fill_.size());
     material.place = place;
     material.ambient = material.diffuse = Kd * rgb;
-    material.specular = Ks * rgb;
+    material.specular = grey(Ks);  // white highlights: so are those of Haines' pictures
     material.shininess = shine;
-    // The databases' rules follow a mirror ray from every transmitting surface, and count it, even where Ks
-    // is 0 and it adds nothing. A factor too small for any picture keeps that ray.
-    constexpr double next_to_nothing = 1e-30;
-    material.reflect = grey(T > 0 ? max(Ks, next_to_nothing) : Ks);
+    material.reflect = grey(Ks);
     material.transmit = grey(T);
     material.ior = ior;
     model_.materials.push_back(std::move(material));
@@ -437,7 +432,7 @@ class Reader {
 
   Model finish() {
     const double n = double(model_.lights.size());
-    for (Light& light : model_.lights) std::get<PointLight>(light.light).intensity = std::sqrt(n) / (2 * n);
+    for (Light& light : model_.lights) std::get<PointLight>(light.light).intensity = 1 / std::sqrt(n);
     const auto add = [&](const char* name, Primitives primitives, std::vector<std::uint32_t> materials) {
       if (!materials.empty()) model_.shapes.push_back({name, std::move(primitives), std::move(materials)});
     };

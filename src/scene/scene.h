@@ -45,12 +45,18 @@ enum class Pattern {
   corners,     ///< One ray through each corner of the pixels, a pixel is the mean of its four (the SPD benchmark's rule).
 };
 enum class Filter { box, tent };
+/// What a PNG holds.
+enum class Encoding {
+  srgb,  ///< sRGB-encoded values, as screens expect.
+  none,  ///< The linear values as they are: the pictures of the 1980s, whose colours were meant so.
+};
 
 struct ImageSettings {
   int width = 1280, height = 720;
   int samples = 1;
   Pattern pattern = Pattern::stratified;
   Filter filter = Filter::box;
+  Encoding encoding = Encoding::srgb;
 };
 template <>
 inline constexpr Parameter<ImageSettings> parameters_of<ImageSettings>[] = {

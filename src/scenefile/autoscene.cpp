@@ -86,9 +86,9 @@ class Rounding {
       return std::round(value / step) * step;
     }
     const std::string text = fmt::format("{:.{}f}", value, decimals_);
-    double rounded = value;
+    double rounded = 0;
     std::from_chars(text.data(), text.data() + text.size(), rounded);
-    return rounded;
+    return rounded + 0.0;  // no "-0"
   }
   Vec3<double> operator()(const Vec3<double>& v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
 
@@ -152,14 +152,14 @@ struct Lamp {
   double brightness;          ///< On a white surface that faces it, at the model's centre.
 };
 constexpr Lamp lamps[] = {
-    {"key", -45, 40, 0.7},   // from the left and above: it shapes the model
-    {"fill", 50, 10, 0.25},  // from the other side: the key's shadows are not black
-    {"rim", 160, 50, 0.4},   // from behind: it parts the model from the background
+    {"key", -45, 40, 0.85},  // from the left and above: it shapes the model
+    {"fill", 50, 10, 0.2},   // from the other side: the key's shadows are not black
+    {"rim", 160, 50, 0.35},  // from behind: it parts the model from the background
 };
 constexpr double lamp_distance = 5;          // radii of the model, from its centre
-constexpr double ambient_brightness = 0.25;  // on a white surface at the centre
-constexpr double background_grey = 0.6;
-constexpr double floor_grey = 0.6;
+constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
+constexpr double background_grey = 0.75;
+constexpr double floor_grey = 0.5;
 constexpr double floor_radius = 4;  // radii of the model
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
@@ -170,13 +170,15 @@ std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& 
   const auto out = std::back_inserter(text);
   fmt::format_to(
       out,
-      "# The lecture's equation. As 1/r and 1/R depend on the unit of length, the ambient light is {} times\n"
-      "# the camera's distance, and each light below its brightness times its own distance.\n"
-      "illumination: {{model: {}, attenuation: {}, ambient: {}, ambient_attenuation: {}, minimum_distance: "
-      "{}}}\n",
-      ambient_brightness, info(ModelId::phong).name, text_of(attenuation_1_over_r),
-      text_of(grey(rounded(ambient_brightness * max(length(to_eye), ball.radius)))),
-      text_of(AmbientAttenuation::one_over_R), text_of(max(rounded(1e-3 * ball.radius), positive.min)));
+      "# The lecture's equation. As 1/r and 1/R depend on the unit of length, the ambient light is {}\n"
+      "# times the camera's distance, and each light's intensity its brightness times its own distance.\n",
+      ambient_brightness);
+  fmt::format_to(out, "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n",
+                 info(ModelId::phong).name, text_of(attenuation_1_over_r),
+                 text_of(grey(rounded(ambient_brightness * max(length(to_eye), ball.radius)))));
+  fmt::format_to(out, "  ambient_attenuation: {}\n  minimum_distance: {}\n",
+                 text_of(AmbientAttenuation::one_over_R),
+                 text_of(max(rounded(1e-3 * ball.radius), positive.min)));
   fmt::format_to(out, "\n# {} radii from the model's centre.\nlights:\n", lamp_distance);
   for (const Lamp& lamp : lamps) {
     const double distance = lamp_distance * ball.radius;
@@ -190,33 +192,30 @@ std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& 
 
 /// The model's own lights, and the equation of the format they come from.
 std::string own_lights_text(const std::vector<Light>& lights) {
-  const double n = double(lights.size());
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
-                 "# The rules of the Standard Procedural Databases: nothing fades, and the ambient light is "
-                 "sqrt(n)/(2n) for n\n"
-                 "# lights, as is each of them.\n"
-                 "illumination: {{model: {}, attenuation: {}, ambient: {}, ambient_attenuation: {}}}\n"
-                 "integrator: {{whitted: {{max_depth: 5}}}}\n"
-                 "\nlights:\n",
-                 info(ModelId::phong).name, text_of(attenuation_none), text_of(grey(sqrt(n) / (2 * n))),
+                 "# The rules of the Standard Procedural Databases and their pictures: nothing fades, there is\n"
+                 "# no ambient light, and every surface that reflects or transmits throws a mirror ray.\n");
+  fmt::format_to(out,
+                 "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n  ambient_attenuation: {}\n",
+                 info(ModelId::phong).name, text_of(attenuation_none), text_of(Rgb{}),
                  text_of(AmbientAttenuation::none));
+  fmt::format_to(out, "integrator: {{whitted: {{max_depth: 5, trace_black_rays: true}}}}\n\nlights:\n");
   for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light));
   return text;
 }
 
 /// Camera and lights stand apart from the model, and must be in reach too.
-void check_reach(const Ball& ball, const std::string& path) {
-  const double reach = max_abs(ball.center) + 2 * lamp_distance * ball.radius;
+void check_reach(const Camera& camera, const Ball& ball, const std::string& path) {
+  const double reach = max(max_abs(camera.eye), max_abs(ball.center) + lamp_distance * ball.radius);
   if (reach <= largest_coordinate) return;
   Diagnostic diagnostic;
   diagnostic.place.file = path;
-  diagnostic.message = fmt::format(
-      "the model is too large, or too far from the origin, to be lit from around it: "
-      "lights would stand {:.3g} scene units away",
-      reach);
-  diagnostic.hint = "choose a larger unit of length";
+  diagnostic.message =
+      "the model is too large, or too far from the origin, for a camera and lights around it";
+  diagnostic.hint =
+      fmt::format("choose a larger unit of length: coordinates reach up to {}", largest_coordinate);
   throw InputError(diagnostic);
 }
 
@@ -234,13 +233,13 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
   if (box.empty()) box = {ball.center, ball.center};
   const Rounding rounded(ball.radius);
   const bool own_lights = !model.lights.empty();
-  if (!model.camera || !own_lights) check_reach(ball, path);
 
   ImageSettings image{.width = width, .height = height, .samples = 16};
   if (model.image) image = *model.image;
   Camera camera =
       model.camera ? *model.camera : framing_camera(box, ball, double(image.width) / image.height);
   if (!model.camera) camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
+  if (!model.camera || !own_lights) check_reach(camera, ball, path);
 
   std::string text;
   const auto out = std::back_inserter(text);
@@ -252,8 +251,8 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
                  model.camera ? "The file's own view."
                               : "From three quarters and a little above; all of the model is in the picture.",
                  settings_text(camera));
-  fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}}}\n", image.width, image.height,
-                 image.samples, text_of(image.pattern));
+  fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width, image.height,
+                 image.samples, text_of(image.pattern), text_of(image.encoding));
   if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
   else if (!model.camera && !own_lights)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));

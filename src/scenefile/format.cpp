@@ -15,16 +15,17 @@ template <class S>
 struct AsField {
   const Parameter<S>& parameter;
   Field& field;
+  S defaults{};  // a temporary would do, but g++ 12 warns of its members without a cause
 
-  void operator()(double S::*member) const { set(FieldType::number, text_of(S{}.*member)); }
-  void operator()(int S::*member) const { set(FieldType::integer, std::to_string(S{}.*member)); }
-  void operator()(bool S::*member) const { set(FieldType::boolean, S{}.*member ? "true" : "false"); }
-  void operator()(Rgb S::*member) const { set(FieldType::color, text_of(S{}.*member)); }
+  void operator()(double S::*member) const { set(FieldType::number, text_of(defaults.*member)); }
+  void operator()(int S::*member) const { set(FieldType::integer, std::to_string(defaults.*member)); }
+  void operator()(bool S::*member) const { set(FieldType::boolean, defaults.*member ? "true" : "false"); }
+  void operator()(Rgb S::*member) const { set(FieldType::color, text_of(defaults.*member)); }
   void operator()(Vec3<double> S::*member) const {
     set(parameter.kind == Kind::point       ? FieldType::point
         : parameter.kind == Kind::direction ? FieldType::direction
                                             : FieldType::vector,
-        text_of(S{}.*member));
+        text_of(defaults.*member));
   }
   void set(FieldType type, std::string default_value) const {
     field.type = type;
@@ -195,7 +196,10 @@ Format make_format() {
               choice(
                   "pattern", names_of<Pattern>(), text_of(image.pattern),
                   "Where samples lie: `stratified` spreads them evenly over each pixel, `corners` sends one "
-                  "ray through each corner of the pixels and takes the mean of four.")});
+                  "ray through each corner of the pixels and takes the mean of four."),
+              choice("encoding", names_of<Encoding>(), text_of(image.encoding),
+                     "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as they are, as "
+                     "renderers once did. EXR is always linear.")});
   f.attenuation =
       section("attenuation", "1 / (constant + linear r + quadratic r^2)", fields_of<AttenuationSettings>());
   f.illumination = section(

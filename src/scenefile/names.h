@@ -24,6 +24,9 @@ template <>
 inline constexpr std::pair<const char*, Pattern> words_of<Pattern>[] = {{"stratified", Pattern::stratified},
                                                                         {"corners", Pattern::corners}};
 template <>
+inline constexpr std::pair<const char*, Encoding> words_of<Encoding>[] = {{"srgb", Encoding::srgb},
+                                                                          {"none", Encoding::none}};
+template <>
 inline constexpr std::pair<const char*, AmbientAttenuation> words_of<AmbientAttenuation>[] = {
     {"none", AmbientAttenuation::none}, {"1/R", AmbientAttenuation::one_over_R}};
 template <>

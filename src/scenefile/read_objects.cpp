@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <unordered_map>
 
 #include "scenefile/nearest.h"
 #include "scenefile/shape_settings.h"
@@ -167,10 +166,11 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
       return nullptr;
     }
   }
-  std::unordered_map<std::string, std::uint32_t> kept;
+  std::vector<Place> replaced_places;
   for (Material& material : model->materials) {
     if (const auto replaced = by_name_.find(material.name); replaced != by_name_.end()) {
       placed.materials.push_back(replaced->second);
+      replaced_places.push_back(material.place);
       continue;
     }
     placed.materials.push_back(std::uint32_t(scene_.materials.size()));
@@ -180,7 +180,13 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
     placed.shapes.push_back(std::uint32_t(scene_.shapes.size()));
     scene_.shapes.push_back(std::move(shape));
   }
-  scene_.warnings.insert(scene_.warnings.end(), model->warnings.begin(), model->warnings.end());
+  for (Diagnostic& warning : model->warnings) {
+    // What was odd about a material that the scene replaces matters to nobody.
+    const bool moot = std::any_of(replaced_places.begin(), replaced_places.end(), [&](const Place& place) {
+      return place.line > 0 && place.line == warning.place.line && place.file == warning.place.file;
+    });
+    if (!moot) scene_.warnings.push_back(std::move(warning));
+  }
   placed.good = true;
   return &placed;
 }

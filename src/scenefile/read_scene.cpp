@@ -61,6 +61,7 @@ void read_image(Reader& reader, const Value& value, ImageSettings& image) {
   reader.table(*values, fields, image);
   if (const Value* filter = values->find("filter")) reader.choice(*filter, image.filter);
   if (const Value* pattern = values->find("pattern")) reader.choice(*pattern, image.pattern);
+  if (const Value* encoding = values->find("encoding")) reader.choice(*encoding, image.encoding);
   const Value* size = values->find("size");
   if (size == nullptr) return;
   const auto sides = reader.list(*size, "side");

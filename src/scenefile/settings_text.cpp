@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "lambent/lambent.h"
+#include "scenefile/names.h"
 
 namespace lambent {
 namespace {
@@ -12,13 +13,6 @@ std::string text(int value) { return fmt::format("{}", value); }
 std::string text(bool value) { return value ? "true" : "false"; }
 std::string text(const Rgb& c) { return fmt::format("[{}, {}, {}]", c[0], c[1], c[2]); }
 std::string text(const Vec3<double>& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
-std::string text(const Attenuation& a) {
-  if (a == attenuation_none) return "none";
-  if (a == attenuation_1_over_r) return "1/r";
-  if (a == attenuation_1_over_r2) return "1/r^2";
-  return fmt::format("{{constant: {}, linear: {}, quadratic: {}}}", a.constant, a.linear, a.quadratic);
-}
-const char* text(AmbientAttenuation a) { return a == AmbientAttenuation::none ? "none" : "1/R"; }
 
 /// "name: value, name: value" of everything in S's table.
 template <class S>
@@ -46,11 +40,11 @@ Metadata settings_metadata(const Scene& scene) {
   const Illumination& i = scene.illumination;
   const ModelInfo& model = info(i.model);
   std::string s;
-  s += fmt::format("camera: {{projection: {}, {}}}\n", scene.camera.projection == Projection::perspective ? "perspective" : "orthographic", settings(scene.camera));
-  s += fmt::format("image: {{size: [{}, {}], {}, pattern: {}, filter: {}}}\n", scene.image.width, scene.image.height, settings(scene.image),
-                   scene.image.pattern == Pattern::stratified ? "stratified" : "corners", scene.image.filter == Filter::box ? "box" : "tent");
+  s += fmt::format("camera: {{projection: {}, {}}}\n", text_of(scene.camera.projection), settings(scene.camera));
+  s += fmt::format("image: {{size: [{}, {}], {}, pattern: {}, filter: {}, encoding: {}}}\n", scene.image.width, scene.image.height, settings(scene.image),
+                   text_of(scene.image.pattern), text_of(scene.image.filter), text_of(scene.image.encoding));
   s += fmt::format("illumination: {{model: {}, attenuation: {}, ambient_attenuation: {}, {}}}\n", model.name,
-                   text(i.attenuation.value_or(model.attenuation)), text(i.ambient_attenuation.value_or(model.ambient_attenuation)), settings(i));
+                   text_of(i.attenuation.value_or(model.attenuation)), text_of(i.ambient_attenuation.value_or(model.ambient_attenuation)), settings(i));
   s += fmt::format("integrator: {{whitted: {{{}}}}}\n", settings(scene.whitted));
   s += fmt::format("background: {}\n", text(scene.background));
   if (!scene.lights.empty()) s += "lights:\n";

@@ -91,18 +91,18 @@ TEST_F(Look, InfoOfAPicture) {
   image.width = 2;
   image.height = 1;
   image.data = {0, 0.25f, 1, 0.5f, 0.75f, 3};
-  write_image(folder.file("p.exr"), image, {{"comment", "a \x1b[31mtrap"}});
+  write_image(folder.file("p.exr"), image, {{"comment", "a \x1b[31mtrap\nand more\n"}});
   const json info = json::parse(run({"info", "p.exr", "--json"}).out);
   EXPECT_EQ(info["width"], 2);
   EXPECT_EQ(info["height"], 1);
-  EXPECT_EQ(info["metadata"]["comment"], "a \x1b[31mtrap");
+  EXPECT_EQ(info["metadata"]["comment"], "a \x1b[31mtrap\nand more\n");
   const json blue = {{"name", "B"}, {"min", 1}, {"max", 3}, {"mean", 2}, {"not_finite", 0}};
   EXPECT_EQ(std::count(info["channels"].begin(), info["channels"].end(), blue), 1) << info["channels"];
   EXPECT_EQ(info["channels"].size(), 3u);
 
   const std::string text = run({"info", "p.exr"}).out;
   EXPECT_NE(text.find("B: 1 to 3, mean 2\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("comment: a ?[31mtrap\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("comment: a ?[31mtrap\n      and more\n"), std::string::npos) << text;
 }
 
 TEST_F(Look, ListNamesAllThereIs) {

@@ -13,11 +13,18 @@ namespace {
 
 std::string error_of(const Image& image, int bits = 8) {
   try {
-    encode_png(image, {}, bits, "a.png");
+    encode_png(image, {}, {bits, true}, "a.png");
     return "";
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+TEST(Png, HoldsLinearValuesWhereNoEncodingIsWanted) {
+  const Image image{1, 1, {"R", "G", "B"}, {0.25f, 0.5f, 2.0f}};
+  const Image read = decode_png(encode_png(image, {}, {8, false}, "a.png"), "a.png").image;
+  const double want[] = {64 / 255.0, 128 / 255.0, 1};  // round(255 x), clamped
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(srgb_from_linear(read.data[c]), want[c], 1e-6);
 }
 
 TEST(Png, RoundsToTheNearestCodeAndClamps) {
@@ -25,7 +32,7 @@ TEST(Png, RoundsToTheNearestCodeAndClamps) {
       2, 2, {"R", "G", "B"}, {0, 0.5f, 1, -1, 2, NAN, INFINITY, -INFINITY, 0.18f, 1e-9f, 0.9999f, 0.25f}};
   for (const int bits : {8, 16}) {
     const int maximum = (1 << bits) - 1;
-    const Image read = decode_png(encode_png(image, {}, bits, "a.png"), "a.png").image;
+    const Image read = decode_png(encode_png(image, {}, {bits, true}, "a.png"), "a.png").image;
     ASSERT_EQ(read.width, 2);
     ASSERT_EQ(read.height, 2);
     ASSERT_EQ(read.channels, image.channels);
@@ -46,16 +53,16 @@ TEST(Png, WritingWhatWasReadGivesTheSameBytes) {
     image.data = *rc::gen::container<std::vector<float>>(
         std::size_t(width * height) * image.channels.size(),
         rc::gen::map(rc::gen::inRange(0, 1 << 24), [](int i) { return float(i) / float(1 << 24); }));
-    const std::string bytes = encode_png(image, {{"key", "value"}}, bits, "a.png");
+    const std::string bytes = encode_png(image, {{"key", "value"}}, {bits, true}, "a.png");
     const ReadImage read = decode_png(bytes, "a.png");
     RC_ASSERT(read.image.channels == image.channels);
-    RC_ASSERT(encode_png(read.image, read.metadata, bits, "a.png") == bytes);
+    RC_ASSERT(encode_png(read.image, read.metadata, {bits, true}, "a.png") == bytes);
   }));
 }
 
 TEST(Png, AlphaIsNotEncodedAsAColour) {
   const Image image{1, 1, {"A", "B", "G", "R"}, {0.5f, 0.1f, 0.2f, 0.3f}};
-  const Image read = decode_png(encode_png(image, {}, 16, "a.png"), "a.png").image;
+  const Image read = decode_png(encode_png(image, {}, {16, true}, "a.png"), "a.png").image;
   ASSERT_EQ(read.channels, (std::vector<std::string>{"R", "G", "B", "A"}));
   EXPECT_NEAR(read.data[0], 0.3, 2e-5);
   EXPECT_NEAR(read.data[1], 0.2, 2e-5);
@@ -65,22 +72,22 @@ TEST(Png, AlphaIsNotEncodedAsAColour) {
 
 TEST(Png, TakesTheColoursOfALayeredPicture) {
   const Image image{1, 1, {"R", "Z", "G", "B", "diffuse.R"}, {1, 7, 0, 1, 5}};
-  const Image read = decode_png(encode_png(image, {}, 8, "a.png"), "a.png").image;
+  const Image read = decode_png(encode_png(image, {}, {8, true}, "a.png"), "a.png").image;
   EXPECT_EQ(read.channels, (std::vector<std::string>{"R", "G", "B"}));
   EXPECT_EQ(read.data, (std::vector<float>{1, 0, 1}));
 }
 
 TEST(Png, ASingleChannelIsGrey) {
-  const std::string bytes = encode_png({2, 1, {"Z"}, {0, 1}}, {}, 8, "a.png");
+  const std::string bytes = encode_png({2, 1, {"Z"}, {0, 1}}, {}, {8, true}, "a.png");
   EXPECT_EQ(bytes[25], 0);  // IHDR's colour type: grey
   EXPECT_EQ(decode_png(bytes, "a.png").image.data, (std::vector<float>{0, 0, 0, 1, 1, 1}));
-  const std::string with_alpha = encode_png({1, 1, {"A", "Y"}, {0, 1}}, {}, 8, "a.png");
+  const std::string with_alpha = encode_png({1, 1, {"A", "Y"}, {0, 1}}, {}, {8, true}, "a.png");
   EXPECT_EQ(with_alpha[25], 4);
   EXPECT_EQ(decode_png(with_alpha, "a.png").image.data, (std::vector<float>{1, 1, 1, 0}));
 }
 
 TEST(Png, SaysThatItIsSrgb) {
-  EXPECT_NE(encode_png({1, 1, {"R", "G", "B"}, {0, 0, 0}}, {}, 8, "a.png").find("sRGB"), std::string::npos);
+  EXPECT_NE(encode_png({1, 1, {"R", "G", "B"}, {0, 0, 0}}, {}, {8, true}, "a.png").find("sRGB"), std::string::npos);
 }
 
 TEST(Png, RefusesWhatItCannotHold) {
@@ -105,7 +112,7 @@ TEST(Png, MetadataComesBackAsItWas) {
   const Image image{1, 1, {"R", "G", "B"}, {0, 0, 0}};
   Metadata expected = metadata;
   expected[5].first = "Comment";
-  EXPECT_EQ(decode_png(encode_png(image, metadata, 8, "a.png"), "a.png").metadata, expected);
+  EXPECT_EQ(decode_png(encode_png(image, metadata, {8, true}, "a.png"), "a.png").metadata, expected);
 }
 
 TEST(Png, KeywordsKeepTheRules) {
@@ -130,7 +137,7 @@ TEST(Png, KeywordsKeepTheRules) {
 // Whatever bytes are damaged or missing: a picture or an InputError.
 TEST(Png, DamageIsAnError) {
   Image image{16, 16, {"R", "G", "B"}, std::vector<float>(16 * 16 * 3, 0.5f)};
-  const std::string good = encode_png(image, {{"key", "value"}}, 8, "a.png");
+  const std::string good = encode_png(image, {{"key", "value"}}, {8, true}, "a.png");
   for (std::size_t length = 0; length < good.size(); ++length)
     EXPECT_THROW(decode_png(std::string_view(good).substr(0, length), "a.png"), InputError) << length;
   EXPECT_TRUE(rc::check([&] {

@@ -238,7 +238,7 @@ TEST(BrokenScenes, EveryVariantOfTheProjectsScenesIsRefusedAtItsLine) {
     if (entry.path().extension() == ".yaml") paths.push_back(entry.path().string());
   std::sort(paths.begin(), paths.end());
   if (paths.empty()) GTEST_SKIP() << "there are no scenes in " << folder;
-  constexpr std::size_t most = 300;  // of each scene: their meshes are read every time
+  constexpr std::size_t most = 150;  // of each scene: their meshes are read every time
   for (const std::string& path : paths) {
     const std::string text = read_text(path);
     ASSERT_TRUE(errors_of(text, {}, path).empty()) << path;

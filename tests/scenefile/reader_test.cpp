@@ -22,10 +22,11 @@ TEST(ReaderMessages, MisspeltKey) {
 }
 
 TEST(ReaderMessages, UnknownKeyThatResemblesNone) {
-  EXPECT_EQ(report(head + "image: {zoom: 3}\n"), R"(scene.yaml:3:9: error: unknown key 'zoom' in the image
-    image: {zoom: 3}
-            ^
-    hint: known are: size, samples, filter, pattern
+  EXPECT_EQ(report(head + "illumination: {attenuation: {falloff: 3}}\n"),
+            R"(scene.yaml:3:30: error: unknown key 'falloff' in an attenuation
+    illumination: {attenuation: {falloff: 3}}
+                                 ^
+    hint: known are: constant, linear, quadratic
 )");
 }
 

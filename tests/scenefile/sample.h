@@ -16,6 +16,7 @@ image:
   samples: 4
   filter: tent
   pattern: stratified
+  encoding: none
 illumination:
   model: phong
   attenuation: {constant: 1, linear: 0.5, quadratic: 0.25}

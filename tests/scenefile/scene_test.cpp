@@ -56,6 +56,7 @@ TEST(SceneFile, EveryValueOfTheSampleArrives) {
   EXPECT_EQ(scene->image.samples, 4);
   EXPECT_EQ(scene->image.filter, Filter::tent);
   EXPECT_EQ(scene->image.pattern, Pattern::stratified);
+  EXPECT_EQ(scene->image.encoding, Encoding::none);
   EXPECT_EQ(scene->illumination.model, ModelId::phong);
   EXPECT_EQ(scene->illumination.attenuation, (Attenuation{1, 0.5, 0.25}));
   EXPECT_EQ(scene->illumination.ambient_attenuation, AmbientAttenuation::one_over_R);
@@ -69,7 +70,7 @@ TEST(SceneFile, EveryValueOfTheSampleArrives) {
 
   ASSERT_EQ(scene->lights.size(), 3u);
   EXPECT_EQ(scene->lights[0].name, "key");
-  EXPECT_EQ(scene->lights[0].place.line, 27);
+  EXPECT_EQ(scene->lights[0].place.line, 28);
   EXPECT_EQ(std::get<PointLight>(scene->lights[0].light).position, (Point{3, 4, 4}));
   EXPECT_EQ(std::get<PointLight>(scene->lights[0].light).intensity, 8);
   EXPECT_EQ(scene->lights[1].name, "light 2");
@@ -85,7 +86,7 @@ TEST(SceneFile, EveryValueOfTheSampleArrives) {
   EXPECT_EQ(scene->objects[0].name, "ball");
   EXPECT_EQ(scene->objects[0].materials, std::vector<std::uint32_t>{0});
   EXPECT_EQ(scene->objects[1].name, "object 2");
-  EXPECT_EQ(scene->objects[1].place.line, 75);
+  EXPECT_EQ(scene->objects[1].place.line, 76);
 }
 
 TEST(SceneFile, WhatIsNotSaidIsAsTheStructsHaveIt) {
@@ -257,6 +258,12 @@ TEST_F(MeshFiles, TheScenesMaterialsStandInForTheFiles) {
   ASSERT_EQ(object.materials.size(), 2u);
   EXPECT_NEAR(scene->materials[object.materials[0]].diffuse[0], 0.1, 1e-12);
   EXPECT_EQ(scene->materials[object.materials[1]].diffuse, grey(0.9));
+}
+
+TEST_F(MeshFiles, NothingIsSaidOfAMaterialThatTheSceneReplaces) {
+  write_text(folder_.file("bare.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl b\nf 1 2 3\n");
+  EXPECT_EQ(warnings(parse("objects: [{mesh: {file: bare.obj}}]\n")).size(), 1u);
+  EXPECT_EQ(warnings(parse("materials: [{name: b}]\nobjects: [{mesh: {file: bare.obj}}]\n")).size(), 0u);
 }
 
 TEST_F(MeshFiles, AnObjectsMaterialReplacesAll) {
