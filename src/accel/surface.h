@@ -7,7 +7,8 @@
 // Rays that leave the point start a little off the surface: at P + offset * Ng, or - on the other side. The queries
 // round that origin to float, each coordinate by u |coordinate| at the most (u = 2^-24), so `offset` is the smallest height that
 // is sure to remain a height:
-//   flat primitives      4u sum_i |Ng_i| |P_i|
+//   flat primitives      4u sum_i |Ng_i| |P_i|, and 2^-48 (largest coordinates of P and of the primitive) for P's own rounding in
+//                        double: the only term left where the sum vanishes, as for a floor at y = 0
 //   spheres and cones    32u (largest coordinates of P and of the primitive + its size), which also covers the rounding of the
 //                        primitive and keeps the sign of the constant term of its quadratic, on which the tests of intersect.h rest
 // and in an instance both, in its own space and in the world.
@@ -33,16 +34,21 @@ inline constexpr double u = 0x1p-24;
 
 inline double sum_of_abs_products(const Vec3<double>& a, const Vec3<double>& b) { return abs(a.x * b.x) + abs(a.y * b.y) + abs(a.z * b.z); }
 
+/// The offset of a flat primitive at P; `size`: the largest coordinate of the primitive.
+inline double flat_offset(const Vec3<double>& Ng, const Vec3<double>& P, double size) {
+  return 4 * u * sum_of_abs_products(Ng, P) + 0x1p-48 * (max_abs(P) + size);
+}
+
 inline void triangle_point(const Geometry& g, std::int32_t primitive, const Vec3<double>& o, const Vec3<double>& d, double t_found, SurfacePoint& s) {
   const std::uint32_t* v = reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(primitive);
   const Vec3<double> p[3] = {cast<double>(g.vertices[v[0]]), cast<double>(g.vertices[v[1]]), cast<double>(g.vertices[v[2]])};
   const Vec3<double> e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
-  const double nn = dot(n, n), slope = dot(n, d);
+  const double nn = dot(n, n), slope = dot(n, d), size = max(max(max_abs(p[0]), max_abs(p[1])), max_abs(p[2]));
   if (!(nn > 0)) {  // no area in double, though float's rounding gave it some
     s.t = t_found;
     s.P = o + t_found * d;
     s.N = s.Ng = -normalize(d);
-    s.offset = 4 * u * sum_of_abs_products(s.Ng, s.P);
+    s.offset = flat_offset(s.Ng, s.P, size);
     return;
   }
   const double t_plane = dot(n, p[0] - o) / slope;
@@ -54,7 +60,7 @@ inline void triangle_point(const Geometry& g, std::int32_t primitive, const Vec3
   s.t = dot(s.P - o, d) / dot(d, d);
   s.Ng = (g.flipped ? -1.0 : 1.0) / sqrt(nn) * n;
   s.N = s.Ng;
-  s.offset = 4 * u * sum_of_abs_products(s.Ng, s.P);
+  s.offset = flat_offset(s.Ng, s.P, size);
   if (!g.normals) return;
   Vec3<double> N{}, lift{};
   for (int i = 0; i < 3; ++i) {
@@ -105,9 +111,10 @@ inline void cone_point(const PlacedCone& cone, const Vec3<double>& o, const Vec3
 inline void plane_point(const Vec3<double>& point, const Vec3<double>& normal, const Vec3<double>& o, const Vec3<double>& d, double t_found, SurfacePoint& s) {
   const double slope = dot(normal, d), t = dot(normal, point - o) / slope;
   s.t = slope == 0 ? t_found : t;
-  s.P = o + s.t * d;
+  const Vec3<double> q = o + s.t * d;
+  s.P = q - dot(normal, q - point) * normal;  // q is off the plane by the rounding of t d
   s.Ng = s.N = normal;
-  s.offset = 4 * u * sum_of_abs_products(s.Ng, s.P);
+  s.offset = flat_offset(s.Ng, s.P, max_abs(point));
 }
 
 }  // namespace detail
@@ -134,7 +141,7 @@ inline SurfacePoint surface_at(const WorldView& world, const HitIds<std::int32_t
   s.P = transform_point(instance->world_from_object, s.P);
   s.offset = s.offset / length(normal);  // a height of 1 there is one of 1 / |normal| here
   s.Ng = normalize(normal);
-  s.offset = s.offset + 4 * detail::u * detail::sum_of_abs_products(s.Ng, s.P);
+  s.offset = s.offset + detail::flat_offset(s.Ng, s.P, max_abs(instance->world_from_object.translation));
   s.N = normalize(transform_normal(instance->object_from_world, s.N));
   s.lift = transform_vector(instance->world_from_object, s.lift);
   return s;

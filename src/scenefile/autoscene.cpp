@@ -196,12 +196,13 @@ std::string own_lights_text(const std::vector<Light>& lights) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
                  "# The rules of the Standard Procedural Databases and their pictures: nothing fades, there is\n"
-                 "# no ambient light, and every surface that reflects or transmits throws a mirror ray.\n");
+                 "# no ambient light, what transmits casts a full shadow, and every surface that reflects or\n"
+                 "# transmits throws a mirror ray.\n");
   fmt::format_to(out,
                  "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n  ambient_attenuation: {}\n",
                  info(ModelId::phong).name, text_of(attenuation_none), text_of(Rgb{}),
                  text_of(AmbientAttenuation::none));
-  fmt::format_to(out, "integrator: {{whitted: {{max_depth: 5, trace_black_rays: true}}}}\n\nlights:\n");
+  fmt::format_to(out, "integrator: {{whitted: {{max_depth: 5, colored_shadows: false, trace_black_rays: true}}}}\n\nlights:\n");
   for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light));
   return text;
 }

@@ -258,6 +258,32 @@ TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
   }
 }
 
+TEST(Queries, NoRayHitsAFlatPrimitiveThroughTheOrigin) {
+  // Where a coordinate of the surface is 0 the rounding of float gives no offset, and P's own in double decides.
+  for (const Vec3<double>& normal : {Vec3<double>{0, 1, 0}, Vec3<double>{1, 0, 0}, normalize(Vec3<double>{1, -1, 0}), normalize(Vec3<double>{1, 2, 3})}) {
+    Scene scene;
+    add_object(scene, std::vector<Plane>{{{0, 0, 0}, normal}});
+    add_object(scene, std::vector<Disc>{{{0, 0, 0}, normal, 50}});
+    const Vec3<double> a = normalize(cross(normal, Vec3<double>{0.3, 0.2, 0.9})), b = cross(normal, a);
+    add_object(scene, Mesh{{cast<float>(-1000.0 * a), cast<float>(1000.0 * a - 500.0 * b), cast<float>(500.0 * a + 1000.0 * b)}, {}, {}, {{0, 1, 2}}});
+    const World world = build_world(scene);
+    Random random(31);
+    for (int geometry = 0; geometry < 3; ++geometry) {
+      long self_hits = 0;
+      for (int i = 0; i < 20000; ++i) {
+        const Vec3<double> o = random.number(0.5, 9) * normal + random.point(0.1), target = std::pow(10, random.number(-9, 1)) * (random.number(-1, 1) * a + random.number(-1, 1) * b);
+        const Vec3<double> d = normalize(target - o);
+        const SurfacePoint s = surface_at(world.view(), {-1, geometry, 0}, o, d, length(target - o));
+        const double side = dot(s.Ng, d) < 0 ? 1 : -1;
+        const Vec3<double> way = normalize(side * s.Ng + 0.999 * random.direction());
+        const Meeting<float> again = meet(world.geometries[geometry], 0, QueryRay<float>{cast<float>(s.P + side * s.offset * s.Ng), cast<float>(way)});
+        self_hits += again.hit;
+      }
+      EXPECT_EQ(self_hits, 0) << "geometry " << geometry;
+    }
+  }
+}
+
 TEST(Queries, EqualDistanceGoesToTheLowestNumber) {
   Scene scene;
   add_object(scene, std::vector<Disc>{{{0, 0, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 0, 1}, 2}, {{0, 0, 0}, {0, 0, 1}, 3}});

@@ -1,5 +1,5 @@
-// docs/lecture.md quotes the source and shows pictures. This sees to it that the quotes are true, that each picture is
-// what the command beside it makes, and that the links of every page lead somewhere.
+// docs/lecture.md quotes the source and shows pictures. This sees to it that the quotes are true, that each
+// picture is what the command beside it makes, and that the links of every page lead somewhere.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ const std::string root = LAMBENT_SOURCE_DIR;
 /// A fenced block of a page: ```kind ... ```.
 struct Block {
   std::string kind, text;
-  std::string file;  ///< Where the line before it is `some/file`: and nothing else, that file; otherwise empty.
+  std::string
+      file;  ///< Where the line before it is `some/file`: and nothing else, that file; otherwise empty.
   int line = 0;
 };
 
@@ -36,7 +37,8 @@ std::vector<Block> blocks_of(const std::string& page) {
       if (!inside) continue;
       Block block{line.substr(3), "", "", number};
       const std::string& name = last_with_text;
-      if (name.size() > 3 && name.front() == '`' && name.ends_with("`:")) block.file = name.substr(1, name.size() - 3);
+      if (name.size() > 3 && name.front() == '`' && name.ends_with("`:"))
+        block.file = name.substr(1, name.size() - 3);
       blocks.push_back(block);
     } else if (inside) {
       blocks.back().text += line + "\n";
@@ -63,8 +65,10 @@ TEST(Lecture, QuotesTheSource) {
     SCOPED_TRACE("docs/lecture.md:" + std::to_string(block.line));
     ASSERT_NE(block.file, "") << "the line above a quote names its file: `src/...`:";
     ASSERT_TRUE(std::filesystem::exists(root + "/" + block.file)) << block.file;
-    EXPECT_NE(squeezed(test::read_text(root + "/" + block.file)).find(squeezed(block.text)), std::string::npos)
-        << block.file << " does not read like this any more:\n" << block.text;
+    EXPECT_NE(squeezed(test::read_text(root + "/" + block.file)).find(squeezed(block.text)),
+              std::string::npos)
+        << block.file << " does not read like this any more:\n"
+        << block.text;
     ++quotes;
   }
   EXPECT_GT(quotes, 0);
@@ -83,10 +87,11 @@ TEST(Lecture, PicturesAreWhatTheCommandsMake) {
     std::string name = block.text.substr(o + output.size());
     name.erase(name.find_last_not_of('\n') + 1);
 
-    const auto run = test::run_shell("exec \"$LAMBENT\" " + options + " --quiet -o " + folder.file(name), root);
+    const auto run =
+        test::run_shell("exec \"$LAMBENT\" " + options + " --quiet -o " + folder.file(name), root);
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const Difference difference =
-        compare_images(read_image(root + "/docs/pictures/" + name).image, read_image(folder.file(name)).image);
+    const Difference difference = compare_images(read_image(root + "/docs/pictures/" + name).image,
+                                                 read_image(folder.file(name)).image);
     EXPECT_EQ(difference.differing_pixels, 0u) << "docs/pictures/" << name << " is old: run script/docs";
     ++pictures;
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "lambent/lambent.h"
 #include "support.h"
@@ -16,6 +17,7 @@ struct Row {
   const char* file;
   std::uint64_t eye_hits, reflection, refraction, shadow;
 };
+void PrintTo(const Row& row, std::ostream* out) { *out << row.file; }
 // "All within about 10 %" is his rule for acceptance; 1 % is ours.
 const Row table[] = {
     {"balls_s4_c.nff", 263169, 175095, 0, 954368},    {"gears_s4_c.nff", 245086, 304643, 207564, 2246955}, {"mount_s6_c.nff", 173125, 354769, 354769, 412922},

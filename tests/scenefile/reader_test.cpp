@@ -7,6 +7,8 @@
 #include "lambent/image.h"
 #include "scene/scene.h"
 #include "scenefile/errors.h"
+#include "scenefile/format.h"
+#include "scenefile/nearest.h"
 #include "support.h"
 
 namespace lambent::test {
@@ -236,7 +238,7 @@ TEST(ReaderMessages, Structure) {
   EXPECT_EQ(only(head + "integrator: {}\n"), "'integrator' names none | it is one of: whitted");
   EXPECT_EQ(only(head + "lights: {}\n"), "'lights' must be a list, not a mapping | ");
   EXPECT_EQ(only(head + "lights: [{name: a}]\n"),
-            "this light has no kind | it is one of: point, directional, spot");
+            "this light has no kind | it is one of: " + join(names_of(format().lights)));
   EXPECT_EQ(only(head + "lights: [{point: {position: [0, 1, 0]}, directional: {direction: [0, -1, 0]}}]\n"),
             "'directional' stands beside 'point' | a light is of one kind; make it a second light");
   EXPECT_EQ(
