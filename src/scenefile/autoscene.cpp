@@ -153,14 +153,14 @@ struct Lamp {
 };
 constexpr Lamp lamps[] = {
     {"key", -45, 40, 0.85},  // from the left and above: it shapes the model
-    {"fill", 50, 10, 0.2},   // from the other side: the key's shadows are not black
-    {"rim", 160, 50, 0.35},  // from behind: it parts the model from the background
+    {"fill", 50, 20, 0.15},  // from the other side: the key's shadows are not black
+    {"rim", 160, 50, 0.3},   // from behind: it parts the model from the background
 };
 constexpr double lamp_distance = 5;          // radii of the model, from its centre
 constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
-constexpr double background_grey = 0.75;
-constexpr double floor_grey = 0.5;
-constexpr double floor_radius = 4;  // radii of the model
+constexpr double background_grey = 0.02;      // what the floor has faded to at its far end, under 1/r, 1/R and the cosine: no edge shows
+constexpr double floor_grey = 0.3;
+constexpr double floor_radius = 60;          // radii of the model
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
 std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& rounded) {

@@ -74,7 +74,11 @@ TEST(Autoscene, SeesAllOfTheModelWithAMargin) {
           {extent, std::abs(dot(way, right)) / (tan_x * depth), std::abs(dot(way, up)) / (tan_y * depth)});
     }
     RC_ASSERT(extent <= 0.901);  // nothing cut off,
-    RC_ASSERT(extent >= 0.899);  // and no nearer than need be: a margin of 10 %
+    // and no nearer than need be: a margin of 10 %. Only in a picture like a ribbon the model's own size
+    // keeps the camera further off.
+    const double distance = length(camera.eye - camera.target);
+    RC_ASSERT(extent >= 0.899 || distance < 1.001 * radius(bounds_of(model)));
+    if (width < 3 * height) RC_ASSERT(extent >= 0.899);
   }));
 }
 
@@ -107,7 +111,7 @@ TEST(Autoscene, LightsTheModelAlikeWhateverItsSize) {
     RC_ASSERT(*scene.illumination.attenuation == attenuation_1_over_r);
     RC_ASSERT(*scene.illumination.ambient_attenuation == AmbientAttenuation::one_over_R);
     // What arrives at the centre: Ia / R, and Il / r of key, fill and rim.
-    const double arriving[] = {0.85, 0.2, 0.35};
+    const double arriving[] = {0.85, 0.15, 0.3};
     RC_ASSERT(std::abs(scene.illumination.ambient[0] / length(scene.camera.eye - center) - 0.15) < 1e-4);
     RC_ASSERT(scene.lights.size() == 3u);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -135,8 +139,9 @@ TEST(Autoscene, ScalesWithTheUnitOfLength) {
     RC_ASSERT(same(one.camera.target, other.camera.target));
     RC_ASSERT(one.camera.fov == other.camera.fov);
     RC_ASSERT(std::abs(s * one.illumination.ambient[0] - other.illumination.ambient[0]) <= 10 * tolerance);
-    RC_ASSERT(std::abs(s * one.illumination.minimum_distance - other.illumination.minimum_distance) <=
-              tolerance);
+    // 1e-10 is the least that a scene file may say.
+    const double least = std::max(s * one.illumination.minimum_distance, 1e-10);
+    RC_ASSERT(std::abs(least - other.illumination.minimum_distance) <= tolerance);
     for (std::size_t i = 0; i < 3; ++i) {
       RC_ASSERT(same(point(one.lights[i]).position, point(other.lights[i]).position));
       RC_ASSERT(std::abs(s * point(one.lights[i]).intensity - point(other.lights[i]).intensity) <=
@@ -164,8 +169,8 @@ TEST(Autoscene, GivesTheSamePictureInAnyUnit) {
   double brightest = 0, darkest = 1;
   for (const float value : metres.data)
     brightest = std::max(brightest, double(value)), darkest = std::min(darkest, double(value));
-  EXPECT_GT(brightest, 0.7);
-  EXPECT_LT(darkest, 0.4);
+  EXPECT_GT(brightest, 0.5);  // the lit side is bright, the background is dark
+  EXPECT_LT(darkest, 0.05);
   for (const double unit : {0.01, 25.4, 1000.0}) {
     // Rounded numbers move edges by less than a hundredth of a pixel: a sample may fall on the other side of
     // one.
