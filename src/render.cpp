@@ -47,11 +47,13 @@ std::vector<std::string> available_isas() {
 
 RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const Kernel& kernel = choose_kernel(options.isa);
-  const int threads = options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
+  const int threads =
+      options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
   Clock clock;
   const auto prepared = prepare(*scene);
   const double build = clock.lap();
-  const TileRun run = render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), options.progress);
+  const TileRun run =
+      render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), options.progress);
 
   RenderResult result;
   result.image = develop(prepared->film, scene->image);

@@ -9,8 +9,10 @@
 
 namespace lambent {
 
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, const std::function<bool(double)>& progress) {
-  const std::int64_t columns = (frame.film_width + tile_size - 1) / tile_size, rows = (frame.film_height + tile_size - 1) / tile_size;
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size,
+                     const std::function<bool(double)>& progress) {
+  const std::int64_t columns = (frame.film_width + tile_size - 1) / tile_size,
+                     rows = (frame.film_height + tile_size - 1) / tile_size;
   const std::int64_t tiles = columns * rows;
   std::atomic<std::int64_t> next{0};
   std::atomic<bool> stop{false};
@@ -25,7 +27,10 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int 
       RayCounts counts;
       for (std::int64_t i; !stop && (i = next++) < tiles;) {
         const int x = int(i % columns) * tile_size, y = int(i / columns) * tile_size;
-        kernel.render_tile(frame, {x, y, std::min(x + tile_size, frame.film_width), std::min(y + tile_size, frame.film_height)}, scratch, counts);
+        kernel.render_tile(
+            frame,
+            {x, y, std::min(x + tile_size, frame.film_width), std::min(y + tile_size, frame.film_height)},
+            scratch, counts);
         if (!progress) continue;
         const std::lock_guard lock(mutex);
         if (!stop && !progress(double(++done) / double(tiles))) stop = run.cancelled = true;

@@ -10,8 +10,9 @@ struct TileRun {
   bool cancelled = false;
 };
 
-/// Renders every tile of the frame with `threads` threads. Which thread takes which tile is chance, and does not matter: a tile
-/// depends on the frame alone. `progress` as in RenderOptions.
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, const std::function<bool(double)>& progress);
+/// Renders every tile of the frame with `threads` threads. Which thread takes which tile is chance, and does
+/// not matter: a tile depends on the frame alone. `progress` as in RenderOptions.
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size,
+                     const std::function<bool(double)>& progress);
 
 }  // namespace lambent

@@ -26,8 +26,7 @@ constexpr int help_column = 26;
 // -----------------------------------------------------------------------------------------------------------
 
 /// All of `text` as a number; false where it is none.
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
+template <class Number> bool read_number(std::string_view text, Number& number) {
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc() && stop == end;

@@ -51,8 +51,7 @@ Json as_json(const std::vector<Topic>& topics) {
 // ---- as text
 // ----------------------------------------------------------------------------------------------------------
 
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& list) {
+template <class Named> std::vector<std::string> names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
   for (const Named& one : list) names.push_back(one.name);
   return names;
@@ -67,8 +66,7 @@ std::string row(std::string_view name, std::string_view text, int indent, int na
                      lines.substr(std::size_t(text_column)));
 }
 
-template <class Named>
-int widest(const std::vector<Named>& list) {
+template <class Named> int widest(const std::vector<Named>& list) {
   std::size_t widest = 0;
   for (const Named& one : list) widest = std::max(widest, one.name.size());
   return int(widest);

@@ -23,13 +23,14 @@ enum class Severity { warning, error };
 struct Diagnostic {
   Severity severity = Severity::error;
   Place place;
-  std::string message;      ///< What is wrong, one sentence without a final stop.
-  std::string hint;         ///< The nearest remedy ("did you mean 'diffuse'?"), or empty.
-  std::string excerpt;      ///< The line of the file, or empty.
-  int caret_column = 0;     ///< Column of `excerpt` that the caret points at, from 1; 0 for no caret.
+  std::string message;   ///< What is wrong, one sentence without a final stop.
+  std::string hint;      ///< The nearest remedy ("did you mean 'diffuse'?"), or empty.
+  std::string excerpt;   ///< The line of the file, or empty.
+  int caret_column = 0;  ///< Column of `excerpt` that the caret points at, from 1; 0 for no caret.
 };
 
-/// "file:3:7: error: ...", then the excerpt, the caret and the hint where there are any; ends without a newline.
+/// "file:3:7: error: ...", then the excerpt, the caret and the hint where there are any; ends without a
+/// newline.
 std::string to_string(const Diagnostic& diagnostic);
 
 /// Bad input: everything that was found wrong, in the order of the file.
@@ -43,7 +44,8 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// The input was right, and still the work could not be done: a full disk, a directory that may not be written.
+/// The input was right, and still the work could not be done: a full disk, a directory that may not be
+/// written.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

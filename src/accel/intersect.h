@@ -1,15 +1,19 @@
 #pragma once
 // Where a ray meets a primitive: one test for each kind, in float, for one ray or a packet.
 //
-// A test answers with a distance t in units of the ray's direction, or with "no hit". Two promises hold for each kind:
+// A test answers with a distance t in units of the ray's direction, or with "no hit". Two promises hold for
+// each kind:
 //
-//   * A hit is reported only where t > 0 is certain in spite of rounding. Together with origins that stand off their
+//   * A hit is reported only where t > 0 is certain in spite of rounding. Together with origins that stand
+//   off their
 //     surface by the bound of surface.h, this makes it impossible that a ray hits the surface it starts from.
-//   * The answer depends on ray and primitive alone. The same test gives the same bits in every lane of a packet.
+//   * The answer depends on ray and primitive alone. The same test gives the same bits in every lane of a
+//   packet.
 //
 // Triangles are watertight besides: no ray passes between two that share an edge or a corner.
 //
-// u = 2^-24 is the largest relative error of one float operation; a sum of n such errors is bounded by n u / (1 - n u).
+// u = 2^-24 is the largest relative error of one float operation; a sum of n such errors is bounded by n u /
+// (1 - n u).
 
 #include "accel/world.h"
 #include "math/pack.h"
@@ -19,10 +23,10 @@ inline namespace LAMBENT_ISA {
 
 inline constexpr float unit_roundoff = 0x1p-24f;
 
-/// The ray in the float arithmetic of the queries. |d| is 1 up to rounding (or the scale of an instance). With it stands what the
-/// triangle test wants: the axis along which the ray moves most, and the shear that lays the ray along that axis.
-template <class F>
-struct QueryRay {
+/// The ray in the float arithmetic of the queries. |d| is 1 up to rounding (or the scale of an instance).
+/// With it stands what the triangle test wants: the axis along which the ray moves most, and the shear that
+/// lays the ray along that axis.
+template <class F> struct QueryRay {
   Vec3<F> o, d;
   MaskOf<F> along_x, along_y;  ///< Neither: along z.
   int axis = -1;               ///< 0, 1, 2 where it is the same in all lanes; -1 where it is not.
@@ -52,32 +56,36 @@ struct QueryRay {
 };
 
 /// A distance and whether it is one.
-template <class F>
-struct Meeting {
+template <class F> struct Meeting {
   F t;
   MaskOf<F> hit;
 };
 
 template <class F> Vec3<F> spread(const Vec3<float>& v) { return {F(v.x), F(v.y), F(v.z)}; }
-template <class F> Vec3<F> spread(const Vec3<double>& v) { return {F(float(v.x)), F(float(v.y)), F(float(v.z))}; }
+template <class F> Vec3<F> spread(const Vec3<double>& v) {
+  return {F(float(v.x)), F(float(v.y)), F(float(v.z))};
+}
 
-/// a.x b.y - a.y b.x, its sign exact: rounding each product keeps their order, so the difference is right or zero, and where it is
-/// zero it is taken again in double, which holds products of floats exactly.
-template <class F>
-F edge(const Vec3<F>& a, const Vec3<F>& b) {
+/// a.x b.y - a.y b.x, its sign exact: rounding each product keeps their order, so the difference is right or
+/// zero, and where it is zero it is taken again in double, which holds products of floats exactly.
+template <class F> F edge(const Vec3<F>& a, const Vec3<F>& b) {
   F result = a.x * b.y - a.y * b.x;
   if (any(result == F(0.f)))
     for (int i = 0; i < lanes_of<F>; ++i)
       if (lane(result, i) == 0)
-        set_lane(result, i, float(double(lane(a.x, i)) * double(lane(b.y, i)) - double(lane(a.y, i)) * double(lane(b.x, i))));
+        set_lane(
+            result, i,
+            float(double(lane(a.x, i)) * double(lane(b.y, i)) - double(lane(a.y, i)) * double(lane(b.x, i))));
   return result;
 }
 
-/// Triangle p0 p1 p2, both sides: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2(1), 2013. Each corner is laid
-/// into the plane across the ray, the same whatever triangle it belongs to, and what the edges span there with the
-/// ray has an exact sign: a ray cannot pass between two triangles, nor through their common corner.
+/// Triangle p0 p1 p2, both sides: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2(1),
+/// 2013. Each corner is laid into the plane across the ray, the same whatever triangle it belongs to, and
+/// what the edges span there with the ray has an exact sign: a ray cannot pass between two triangles, nor
+/// through their common corner.
 template <class F>
-Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<float>& p0, const Vec3<float>& p1, const Vec3<float>& p2) {
+Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<float>& p0, const Vec3<float>& p1,
+                         const Vec3<float>& p2) {
   const Vec3<F> v0 = spread<F>(p0) - ray.o;
   Vec3<F> a = ray.permute(v0), b = ray.permute(spread<F>(p1) - ray.o), c = ray.permute(spread<F>(p2) - ray.o);
   a.x = a.x - ray.shear_x * a.z, a.y = a.y - ray.shear_y * a.z;
@@ -89,20 +97,25 @@ Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<float>& p0, const Ve
   const F area = U + V + W;
   const F t = (U * a.z + V * b.z + W * c.z) / area * ray.scale;
 
-  // On which side of the plane does the ray start? n is off by 3u in each product, v0 by u, the dot product by 3u more:
-  // the error is at most 8u of the sum of the absolute products. n.d has the sign of area / scale.
+  // On which side of the plane does the ray start? n is off by 3u in each product, v0 by u, the dot product
+  // by 3u more: the error is at most 8u of the sum of the absolute products. n.d has the sign of area /
+  // scale.
   const Vec3<float> e1 = p1 - p0, e2 = p2 - p0, n = cross(e1, e2);
   const F height = dot(v0, spread<F>(n));
-  const Vec3<float> size{abs(e1.y * e2.z) + abs(e1.z * e2.y), abs(e1.z * e2.x) + abs(e1.x * e2.z), abs(e1.x * e2.y) + abs(e1.y * e2.x)};
-  const F bound = F(8 * unit_roundoff) * (abs(v0.x) * F(size.x) + abs(v0.y) * F(size.y) + abs(v0.z) * F(size.z));
-  const MaskOf<F> ahead = select(either(both(area > zero, ray.scale > zero), both(area < zero, ray.scale < zero)), height, -height) > bound;
+  const Vec3<float> size{abs(e1.y * e2.z) + abs(e1.z * e2.y), abs(e1.z * e2.x) + abs(e1.x * e2.z),
+                         abs(e1.x * e2.y) + abs(e1.y * e2.x)};
+  const F bound =
+      F(8 * unit_roundoff) * (abs(v0.x) * F(size.x) + abs(v0.y) * F(size.y) + abs(v0.z) * F(size.z));
+  const MaskOf<F> ahead =
+      select(either(both(area > zero, ray.scale > zero), both(area < zero, ray.scale < zero)), height,
+             -height) > bound;
   return {t, both(hit, ahead, t > zero, t < F(__builtin_inff()))};
 }
 
-/// Sphere, both sides. The discriminant is taken where the ray passes the centre, as the origin may be far away
-/// (Haines, Guenther, Akenine-Moeller, Ray Tracing Gems, 2019, chapter 7); the nearer root as c / q, which keeps the sign of c.
-template <class F>
-Meeting<F> meet_sphere(const QueryRay<F>& ray, const Vec3<F>& center, F radius) {
+/// Sphere, both sides. The discriminant is taken where the ray passes the centre, as the origin may be far
+/// away (Haines, Guenther, Akenine-Moeller, Ray Tracing Gems, 2019, chapter 7); the nearer root as c / q,
+/// which keeps the sign of c.
+template <class F> Meeting<F> meet_sphere(const QueryRay<F>& ray, const Vec3<F>& center, F radius) {
   const F zero(0.f), r2 = radius * radius;
   const Vec3<F> f = ray.o - center;
   const F a = dot(ray.d, ray.d), b = -dot(f, ray.d);
@@ -113,16 +126,16 @@ Meeting<F> meet_sphere(const QueryRay<F>& ray, const Vec3<F>& center, F radius) 
   const F c = dot(f, f) - r2;
   const F root = sqrt(max(discriminant, zero) * a);
   const F q = b + select(b < zero, -root, root);
-  const F t0 = c / q, t1 = q / a;  // q = 0 only where the ray starts at its closest approach on the sphere: t0 is then NaN or infinite, and no hit
+  const F t0 = c / q, t1 = q / a;  // q = 0 only where the ray starts at its closest approach on the sphere:
+                                   // t0 is then NaN or infinite, and no hit
   const F near = min(t0, t1), far = max(t0, t1);
   const F t = select(near > zero, near, far);
   return {t, both(hit, t > zero, t < F(__builtin_inff()))};
 }
 
-/// The side of a cone or cylinder, both sides, open at the ends. With f the origin and everything split into a part
-/// along the axis (z) and across it, |f + t d|^2 = (radius + slope (fz + t dz))^2 is quadratic in t.
-template <class F>
-Meeting<F> meet_cone(const QueryRay<F>& ray, const PlacedCone& cone) {
+/// The side of a cone or cylinder, both sides, open at the ends. With f the origin and everything split into
+/// a part along the axis (z) and across it, |f + t d|^2 = (radius + slope (fz + t dz))^2 is quadratic in t.
+template <class F> Meeting<F> meet_cone(const QueryRay<F>& ray, const PlacedCone& cone) {
   const F zero(0.f), slope(float(cone.slope)), radius(float(cone.radius)), height(float(cone.height));
   const Vec3<F> axis = spread<F>(cone.axis);
   const Vec3<F> f = ray.o - spread<F>(cone.base);
@@ -132,7 +145,8 @@ Meeting<F> meet_cone(const QueryRay<F>& ray, const PlacedCone& cone) {
   const F at_f = radius + slope * fz;
   const F B = slope * dz * at_f - dot(fp, dp);  // A t^2 - 2 B t + C = 0
   const F C = dot(fp, fp) - at_f * at_f;
-  // The discriminant does not change when the origin slides along the ray: take it nearest to the middle of the cone.
+  // The discriminant does not change when the origin slides along the ray: take it nearest to the middle of
+  // the cone.
   const F s = -dot(f - F(0.5f) * height * axis, ray.d) / dot(ray.d, ray.d);
   const F gz = fz + s * dz;
   const Vec3<F> gp = fp + s * dp;
@@ -176,18 +190,19 @@ Meeting<F> meet_disc(const QueryRay<F>& ray, const Vec3<F>& center, const Vec3<F
 }
 
 /// Any primitive but an instance.
-template <class F>
-Meeting<F> meet(const Geometry& g, std::int32_t primitive, const QueryRay<F>& ray) {
+template <class F> Meeting<F> meet(const Geometry& g, std::int32_t primitive, const QueryRay<F>& ray) {
   switch (g.kind) {
     case PrimitiveKind::triangle: {
-      const std::uint32_t* v = reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(primitive);
+      const std::uint32_t* v =
+          reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(primitive);
       return meet_triangle(ray, g.vertices[v[0]], g.vertices[v[1]], g.vertices[v[2]]);
     }
     case PrimitiveKind::sphere: {
       const Sphere& s = g.spheres[primitive];
       return meet_sphere(ray, spread<F>(s.center), F(float(s.radius)));
     }
-    case PrimitiveKind::cone: return meet_cone(ray, g.cones[primitive]);
+    case PrimitiveKind::cone:
+      return meet_cone(ray, g.cones[primitive]);
     case PrimitiveKind::disc: {
       const Disc& d = g.discs[primitive];
       return meet_disc(ray, spread<F>(d.center), spread<F>(d.normal), F(float(d.radius)));
@@ -196,7 +211,8 @@ Meeting<F> meet(const Geometry& g, std::int32_t primitive, const QueryRay<F>& ra
       const Plane& p = g.planes[primitive];
       return meet_plane(ray, spread<F>(p.point), spread<F>(p.normal));
     }
-    case PrimitiveKind::instance: break;
+    case PrimitiveKind::instance:
+      break;
   }
   __builtin_unreachable();
 }

@@ -15,14 +15,17 @@ float round_down(double a) {
 float round_up(double a) { return -round_down(-a); }
 
 BoxedPrimitive boxed(PrimitiveRef ref, const Bounds& b) {
-  return {ref, {round_down(b.lower.x), round_down(b.lower.y), round_down(b.lower.z)}, {round_up(b.upper.x), round_up(b.upper.y), round_up(b.upper.z)}};
+  return {ref,
+          {round_down(b.lower.x), round_down(b.lower.y), round_down(b.lower.z)},
+          {round_up(b.upper.x), round_up(b.upper.y), round_up(b.upper.z)}};
 }
 
 /// The factor by which t scales all lengths, or 0 where it does not scale all alike.
 double uniform_scale(const Transform& t) {
   const double xx = dot(t.x, t.x), yy = dot(t.y, t.y), zz = dot(t.z, t.z), tolerance = 1e-12 * xx;
-  const bool similar = std::fabs(xx - yy) <= tolerance && std::fabs(xx - zz) <= tolerance && std::fabs(dot(t.x, t.y)) <= tolerance &&
-                       std::fabs(dot(t.y, t.z)) <= tolerance && std::fabs(dot(t.x, t.z)) <= tolerance;
+  const bool similar = std::fabs(xx - yy) <= tolerance && std::fabs(xx - zz) <= tolerance &&
+                       std::fabs(dot(t.x, t.y)) <= tolerance && std::fabs(dot(t.y, t.z)) <= tolerance &&
+                       std::fabs(dot(t.x, t.z)) <= tolerance;
   return similar ? std::sqrt(xx) : 0;
 }
 
@@ -59,15 +62,17 @@ Bounds bounds_of(const Geometry& g, std::uint32_t i) {
       add_circle(b, c.base + c.height * c.axis, c.axis, c.radius + c.slope * c.height);
       break;
     }
-    case PrimitiveKind::disc: add_circle(b, g.discs[i].center, g.discs[i].normal, g.discs[i].radius); break;
+    case PrimitiveKind::disc:
+      add_circle(b, g.discs[i].center, g.discs[i].normal, g.discs[i].radius);
+      break;
     case PrimitiveKind::plane:
-    case PrimitiveKind::instance: break;
+    case PrimitiveKind::instance:
+      break;
   }
   return b;
 }
 
-template <class T>
-T* keep(std::vector<std::unique_ptr<std::vector<T>>>& store, std::vector<T> values) {
+template <class T> T* keep(std::vector<std::unique_ptr<std::vector<T>>>& store, std::vector<T> values) {
   store.push_back(std::make_unique<std::vector<T>>(std::move(values)));
   return store.back()->data();
 }
@@ -78,7 +83,8 @@ class Builder {
 
   World build() {
     world_.material_transmits = std::make_unique<bool[]>(scene_.materials.size() + 1);
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i) world_.material_transmits[i] = !is_black(scene_.materials[i].transmit);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      world_.material_transmits[i] = !is_black(scene_.materials[i].transmit);
 
     std::vector<int> shown(scene_.shapes.size());
     for (const Object& object : scene_.objects) ++shown[object.shape];
@@ -112,7 +118,8 @@ class Builder {
   }
 
  private:
-  // An instance costs every ray that comes near a change of space, a copy costs memory: small shapes are copied.
+  // An instance costs every ray that comes near a change of space, a copy costs memory: small shapes are
+  // copied.
   static bool can_bake(const Shape& shape, const Transform& t, int shown) {
     if (std::holds_alternative<std::vector<Plane>>(shape.primitives)) return true;
     const bool small = primitive_count(shape) <= 16;
@@ -122,7 +129,8 @@ class Builder {
 
   std::int32_t add_geometry(const Shape& shape, const Transform& t) {
     Geometry g{};
-    g.material_of_primitive = shape.material_of_primitive.empty() ? nullptr : shape.material_of_primitive.data();
+    g.material_of_primitive =
+        shape.material_of_primitive.empty() ? nullptr : shape.material_of_primitive.data();
     g.count = std::uint32_t(primitive_count(shape));
     const double scale = uniform_scale(t);
     const Transform inverse_t = inverse(t);
@@ -153,7 +161,8 @@ class Builder {
     }
     g.normals = keep(world_.placed_points, std::move(normals));
   }
-  void place(const std::vector<Sphere>& spheres, const Transform& t, const Transform&, double scale, Geometry& g) {
+  void place(const std::vector<Sphere>& spheres, const Transform& t, const Transform&, double scale,
+             Geometry& g) {
     g.kind = PrimitiveKind::sphere;
     if (is_identity(t)) {
       g.spheres = spheres.data();
@@ -163,23 +172,30 @@ class Builder {
     for (const Sphere& s : spheres) result.push_back({transform_point(t, s.center), scale * s.radius});
     g.spheres = keep(world_.placed_spheres, std::move(result));
   }
-  void place(const std::vector<Cone>& cones, const Transform& t, const Transform&, double scale, Geometry& g) {
+  void place(const std::vector<Cone>& cones, const Transform& t, const Transform&, double scale,
+             Geometry& g) {
     g.kind = PrimitiveKind::cone;
     std::vector<PlacedCone> result;
     for (const Cone& c : cones)
-      result.push_back(placed({transform_point(t, c.from), transform_point(t, c.to), scale * c.radius_from, scale * c.radius_to}));
+      result.push_back(placed({transform_point(t, c.from), transform_point(t, c.to), scale * c.radius_from,
+                               scale * c.radius_to}));
     g.cones = keep(world_.placed_cones, std::move(result));
   }
-  void place(const std::vector<Disc>& discs, const Transform& t, const Transform& inverse_t, double scale, Geometry& g) {
+  void place(const std::vector<Disc>& discs, const Transform& t, const Transform& inverse_t, double scale,
+             Geometry& g) {
     g.kind = PrimitiveKind::disc;
     std::vector<Disc> result;
-    for (const Disc& d : discs) result.push_back({transform_point(t, d.center), normalize(transform_normal(inverse_t, d.normal)), scale * d.radius});
+    for (const Disc& d : discs)
+      result.push_back(
+          {transform_point(t, d.center), normalize(transform_normal(inverse_t, d.normal)), scale * d.radius});
     g.discs = keep(world_.placed_discs, std::move(result));
   }
-  void place(const std::vector<Plane>& planes, const Transform& t, const Transform& inverse_t, double, Geometry& g) {
+  void place(const std::vector<Plane>& planes, const Transform& t, const Transform& inverse_t, double,
+             Geometry& g) {
     g.kind = PrimitiveKind::plane;
     std::vector<Plane> result;
-    for (const Plane& p : planes) result.push_back({transform_point(t, p.point), normalize(transform_normal(inverse_t, p.normal))});
+    for (const Plane& p : planes)
+      result.push_back({transform_point(t, p.point), normalize(transform_normal(inverse_t, p.normal))});
     g.planes = keep(world_.placed_planes, std::move(result));
   }
 
@@ -192,11 +208,13 @@ class Builder {
     }
   }
 
-  void add_instance(const Object& object, std::uint32_t index, std::uint32_t bvh, std::vector<BoxedPrimitive>& boxes) {
+  void add_instance(const Object& object, std::uint32_t index, std::uint32_t bvh,
+                    std::vector<BoxedPrimitive>& boxes) {
     const BvhNode& root = world_.nodes[world_.bvhs[bvh].root];
     Bounds b;
     for (int corner = 0; corner < 8; ++corner)
-      b.add(transform_point(object.world_from_object, {double(corner & 1 ? root.upper.x : root.lower.x), double(corner & 2 ? root.upper.y : root.lower.y),
+      b.add(transform_point(object.world_from_object, {double(corner & 1 ? root.upper.x : root.lower.x),
+                                                       double(corner & 2 ? root.upper.y : root.lower.y),
                                                        double(corner & 4 ? root.upper.z : root.lower.z)}));
     boxes.push_back(boxed({instance_geometry, std::int32_t(world_.instances.size())}, b));
     world_.instances.push_back({object.world_from_object, inverse(object.world_from_object), bvh, index});
@@ -209,8 +227,15 @@ class Builder {
 }  // namespace
 
 WorldView World::view() const {
-  return {bvhs.data(),   nodes.data(),    refs.data(), geometries.data(), instances.data(), objects.data(), planes.data(),
-          std::uint32_t(planes.size()), material_transmits.get()};
+  return {bvhs.data(),
+          nodes.data(),
+          refs.data(),
+          geometries.data(),
+          instances.data(),
+          objects.data(),
+          planes.data(),
+          std::uint32_t(planes.size()),
+          material_transmits.get()};
 }
 
 World build_world(const Scene& scene) { return Builder(scene).build(); }

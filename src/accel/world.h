@@ -1,9 +1,9 @@
 #pragma once
 // The world: a scene laid out for ray queries. Primitives of all objects, placed, in trees of boxes.
 //
-// Triangles and analytic shapes stand in the same trees. A shape that one object shows stands in the world's own tree,
-// its coordinates taken into the world; a shape that several objects show has a tree of its own, and the objects are
-// instances of it: one level, never deeper.
+// Triangles and analytic shapes stand in the same trees. A shape that one object shows stands in the world's
+// own tree, its coordinates taken into the world; a shape that several objects show has a tree of its own,
+// and the objects are instances of it: one level, never deeper.
 
 #include <array>
 #include <cstdint>
@@ -18,27 +18,27 @@ enum class PrimitiveKind : std::int32_t { triangle, sphere, cone, disc, plane, i
 
 /// A cone's side, as the queries want it.
 struct PlacedCone {
-  Vec3<double> base;    ///< Centre of the end z = 0.
-  Vec3<double> axis;    ///< Unit vector along which z grows.
-  double height;        ///< z of the other end.
-  double radius;        ///< At z = 0.
-  double slope;         ///< Growth of the radius with z.
+  Vec3<double> base;  ///< Centre of the end z = 0.
+  Vec3<double> axis;  ///< Unit vector along which z grows.
+  double height;      ///< z of the other end.
+  double radius;      ///< At z = 0.
+  double slope;       ///< Growth of the radius with z.
 };
 
 /// Primitives of one kind in one space: the world's, or that of a shape with a tree of its own.
 struct Geometry {
   PrimitiveKind kind;
-  bool flipped = false;              ///< Triangles: the placing mirrored them, the counter-clockwise side is inside.
+  bool flipped = false;  ///< Triangles: the placing mirrored them, the counter-clockwise side is inside.
   std::uint32_t count = 0;
-  std::uint32_t object = 0;          ///< Baked geometry: the object that shows it. Otherwise the instance says.
+  std::uint32_t object = 0;  ///< Baked geometry: the object that shows it. Otherwise the instance says.
   const Vec3<float>* vertices = nullptr;
   const std::array<std::uint32_t, 3>* triangles = nullptr;
   const Vec3<float>* normals = nullptr;  ///< Null, or one for each vertex.
   const Vec2<float>* uvs = nullptr;      ///< Likewise.
   const Sphere* spheres = nullptr;
   const PlacedCone* cones = nullptr;
-  const Disc* discs = nullptr;       ///< Unit normals.
-  const Plane* planes = nullptr;     ///< Unit normals.
+  const Disc* discs = nullptr;                           ///< Unit normals.
+  const Plane* planes = nullptr;                         ///< Unit normals.
   const std::uint32_t* material_of_primitive = nullptr;  ///< Null: all the first of the object's materials.
 };
 

@@ -16,7 +16,9 @@ Image develop(const std::vector<float>& film, const ImageSettings& settings) {
     for (int x = 0; x < image.width; ++x) {
       const float* corner = &film[y * row + std::size_t(x) * color_channels];
       for (int c = 0; c < color_channels; ++c)
-        image.pixel(x, y)[c] = float((double(corner[c]) + corner[c + color_channels] + corner[c + row] + corner[c + row + color_channels]) / 4);
+        image.pixel(x, y)[c] = float((double(corner[c]) + corner[c + color_channels] + corner[c + row] +
+                                      corner[c + row + color_channels]) /
+                                     4);
     }
   return image;
 }

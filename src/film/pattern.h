@@ -7,11 +7,12 @@ namespace lambent {
 
 /// Where the rays of a pixel go through, in pixels from its top left corner; (0.5, 0.5) is its centre.
 ///
-/// Stratified: of n samples, each row and each column of an n x n grid holds one, at the middle of its cell; the order within is van der
-/// Corput's (so for n a power of two every dyadic box of area 1/n holds one: Hammersley's points, centred). The
-/// pattern is the same in every pixel: a picture has no noise. A filter wider than the pixel spreads the points by the inverse of its
-/// cumulative weight, so that all samples of a pixel count alike and none is shared between pixels (Ernst,
-/// Stamminger, Greiner, Filter importance sampling, 2006).
+/// Stratified: of n samples, each row and each column of an n x n grid holds one, at the middle of its cell;
+/// the order within is van der Corput's (so for n a power of two every dyadic box of area 1/n holds one:
+/// Hammersley's points, centred). The pattern is the same in every pixel: a picture has no noise. A filter
+/// wider than the pixel spreads the points by the inverse of its cumulative weight, so that all samples of a
+/// pixel count alike and none is shared between pixels (Ernst, Stamminger, Greiner, Filter importance
+/// sampling, 2006).
 ///   box    the pixel itself
 ///   tent   weight 1 - |x| over two pixels in width
 std::vector<Vec2<double>> sample_pattern(int samples, Filter filter);

@@ -25,7 +25,8 @@ inline namespace LAMBENT_ISA {
 ///   arriving  l -> Arriving<F, C>: light l at this point, after attenuation and shadow
 ///   observe   (term, light, colour): called once for each summand, in the order of the sum
 template <class Model, class F, class C, class Lights, class Observer = NoObserver>
-C illuminate(const Surface<F, C>& s, const C& Ia, int lights, const Lights& arriving, const Observer& observe = {}) {
+C illuminate(const Surface<F, C>& s, const C& Ia, int lights, const Lights& arriving,
+             const Observer& observe = {}) {
   C I = s.ka * Ia;
   observe(Term::ambient, -1, I);
   for (int l = 0; l < lights; ++l) {

@@ -1,9 +1,9 @@
 #pragma once
 // The contract of an illumination model.
 //
-// A model is handed one surface point and one light that reaches it, and returns what that light contributes, in two
-// terms. It knows no scene, no shadow, no attenuation and no random number: all that has been decided before it is
-// called. A model is a struct with
+// A model is handed one surface point and one light that reaches it, and returns what that light contributes,
+// in two terms. It knows no scene, no shadow, no attenuation and no random number: all that has been decided
+// before it is called. A model is a struct with
 //
 //   static constexpr ModelInfo info          its manual page
 //   template <class F, class C>
@@ -37,32 +37,27 @@ struct ModelInfo {
   const char* title;     ///< One line.
   const char* equation;  ///< The contribution of one light, in the letters of docs/lecture.md.
   const char* source;    ///< Where it comes from.
-  Attenuation attenuation = attenuation_none;                 ///< Of the lights, where the scene does not say.
+  Attenuation attenuation = attenuation_none;  ///< Of the lights, where the scene does not say.
   AmbientAttenuation ambient_attenuation = AmbientAttenuation::none;  ///< Likewise, of the ambient term.
-  ModelParameter parameters[max_model_parameters] = {};       ///< Ends with the first that has no name.
+  ModelParameter parameters[max_model_parameters] = {};  ///< Ends with the first that has no name.
 };
 
 /// One point of a surface, as the eye ray (or a reflected one) found it.
-template <class F, class C>
-struct Surface {
-  Vec3<F> N;  ///< Unit normal, on the side that V is on.
-  Vec3<F> V;  ///< Unit vector from the point to where the ray came from.
-  C ka, kd, ks;  ///< The material's ambient, diffuse and specular coefficients.
-  F n;           ///< Its shininess.
+template <class F, class C> struct Surface {
+  Vec3<F> N;                    ///< Unit normal, on the side that V is on.
+  Vec3<F> V;                    ///< Unit vector from the point to where the ray came from.
+  C ka, kd, ks;                 ///< The material's ambient, diffuse and specular coefficients.
+  F n;                          ///< Its shininess.
   F own[max_model_parameters];  ///< The model's own parameters, in the order of its table.
 };
 
 /// One light, as it arrives at that point.
-template <class F, class C>
-struct Arriving {
+template <class F, class C> struct Arriving {
   Vec3<F> L;  ///< Unit vector from the point to the light.
   C I;        ///< Il after attenuation; black where the light is blocked.
 };
 
 /// What one light contributes, the cosine included.
-template <class C>
-struct Terms {
-  C diffuse, specular;
-};
+template <class C> struct Terms { C diffuse, specular; };
 
 }  // namespace lambent

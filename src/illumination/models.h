@@ -27,11 +27,11 @@ inline constexpr ModelInfo model_infos[] = {
 constexpr const ModelInfo& info(ModelId id) { return model_infos[int(id)]; }
 
 /// Calls visitor.operator()<Model>() with the struct of the model `id`.
-template <class Visitor>
-decltype(auto) with_model(ModelId id, Visitor&& visitor) {
+template <class Visitor> decltype(auto) with_model(ModelId id, Visitor&& visitor) {
   switch (id) {
 #define LAMBENT_MODEL(name, Struct) \
-  case ModelId::name: return visitor.template operator()<Struct>();
+  case ModelId::name:               \
+    return visitor.template operator()<Struct>();
 #include "illumination/models.def"
 #undef LAMBENT_MODEL
   }

@@ -38,7 +38,8 @@ Selection select_channels(const Image& image, const std::string& path) {
   return selection;
 }
 
-void encode_row(const Image& image, int y, const Selection& selection, const WriteOptions& options, std::vector<png_byte>& row) {
+void encode_row(const Image& image, int y, const Selection& selection, const WriteOptions& options,
+                std::vector<png_byte>& row) {
   const int bits = options.png_bits;
   const SrgbQuantizer& color = srgb_quantizer(bits);
   const int maximum = (1 << bits) - 1;
@@ -49,7 +50,8 @@ void encode_row(const Image& image, int y, const Selection& selection, const Wri
   };
   for (int x = 0; x < image.width; ++x) {
     const float* pixel = image.pixel(x, y);
-    for (const std::size_t c : selection.colors) put(options.png_encoded ? color(pixel[c]) : quantize(double(pixel[c]), maximum));
+    for (const std::size_t c : selection.colors)
+      put(options.png_encoded ? color(pixel[c]) : quantize(double(pixel[c]), maximum));
     if (selection.alpha) put(quantize(double(pixel[*selection.alpha]), maximum));
   }
 }

@@ -22,8 +22,7 @@ struct PngSession {
 
   /// Call `action`, which calls libpng. false where libpng gave up; `error` then says why. libpng leaves by a
   /// long jump, which skips destructors: `action` must not create anything that has one.
-  template <class Action>
-  bool run(const Action& action) {
+  template <class Action> bool run(const Action& action) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     action();
     return true;

@@ -11,7 +11,7 @@
 namespace lambent {
 
 struct Model {
-  std::vector<Shape> shapes;        ///< One or more parts; material_of_primitive indexes `materials` of this model.
+  std::vector<Shape> shapes;  ///< One or more parts; material_of_primitive indexes `materials` of this model.
   std::vector<Material> materials;  ///< Never empty: a model without materials has one neutral one.
   std::vector<Light> lights;
   std::optional<Camera> camera;
@@ -20,7 +20,8 @@ struct Model {
   std::vector<Diagnostic> warnings;
 };
 
-/// Read a model file; its ending (.obj, .nff) names the format. Throws InputError with the file's name and line.
+/// Read a model file; its ending (.obj, .nff) names the format. Throws InputError with the file's name and
+/// line.
 Model import_model(const std::string& path);
 
 Model import_obj(const std::string& path);

@@ -5,10 +5,11 @@
 // read as a stream of words. What the text leaves open, and how it is read here:
 //   - A negative radius shows only the inside; surfaces here have two sides, so its absolute value is taken.
 //   - `hither` cuts nothing off. Pixels are square, and `angle` is the vertical one.
-//   - Lights have "no particular value", and the databases' text proposes sqrt(n)/(2n) for each of n lights and for the ambient light.
-//     Haines' own pictures were made otherwise: measured in them, each light is 1/sqrt(n), there is no ambient light, highlights are
-//     white, and the sums stand in the files as they are, not encoded for a screen. The pictures are what people compare
-//     with, so that is done here; the automatic scene says so, where it can be changed.
+//   - Lights have "no particular value"; the databases' text proposes sqrt(n)/(2n) for each of n lights and
+//     for the ambient light. Haines' own pictures were made otherwise: measured in them, each light is
+//     1/sqrt(n), there is no ambient light, highlights are white, and the sums stand in the files as they
+//     are, not encoded for a screen. The pictures are what people compare with, so that is done here; the
+//     automatic scene says so, where it can be changed.
 //   - Objects before the first `f` are of a neutral grey, with a warning.
 
 #include <algorithm>

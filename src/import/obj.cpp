@@ -136,8 +136,7 @@ class ObjReader {
     numbers(line, rest, "a texture coordinate", 1, 2, x);
     add(uvs_, Vec2<float>{float(x[0]), float(x[1])}, line);
   }
-  template <class T>
-  void add(std::vector<T>& list, const T& value, std::string_view line) {
+  template <class T> void add(std::vector<T>& list, const T& value, std::string_view line) {
     if (list.size() == none) {
       errors_.push_back(error_at(file_, line, "more than 2^32 - 1 of these are more than can be numbered"));
       throw InputError(std::move(errors_));

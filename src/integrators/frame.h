@@ -1,6 +1,6 @@
 #pragma once
-// What a kernel is given: the scene as plain records, and memory to work in. Plain data: every instruction set's kernel and the code
-// that prepares it agree about it.
+// What a kernel is given: the scene as plain records, and memory to work in. Plain data: every instruction
+// set's kernel and the code that prepares it agree about it.
 
 #include <cstdint>
 
@@ -23,8 +23,9 @@ struct FadingRecord {
   AmbientAttenuation ambient;
 };
 
-/// Eye rays start at eye + (x * right + y * up) * spread_of_origins, and go along forward + (x * right + y * up) * spread_of_directions, with
-/// x and y in units of half the picture's height, from its centre, x to the right and y upwards.
+/// Eye rays start at eye + (x * right + y * up) * spread_of_origins, and go along forward + (x * right + y *
+/// up) * spread_of_directions, with x and y in units of half the picture's height, from its centre, x to the
+/// right and y upwards.
 struct CameraRecord {
   Vec3<double> eye, forward, right, up;  ///< The last three of unit length.
   double spread_of_origins, spread_of_directions;
@@ -66,13 +67,13 @@ template <class T> struct Column {
 /// Rays on their way, and what became of them.
 struct RayQueue {
   std::uint32_t count = 0, capacity = 0;
-  Column<double> ox, oy, oz;        ///< Origin: the surface point itself.
-  Column<double> dx, dy, dz;        ///< Unit direction.
-  Column<double> R;                 ///< Distance from the eye to the origin, over all bounces.
-  Column<float> qx, qy, qz;         ///< Where the query starts: off the surface.
+  Column<double> ox, oy, oz;              ///< Origin: the surface point itself.
+  Column<double> dx, dy, dz;              ///< Unit direction.
+  Column<double> R;                       ///< Distance from the eye to the origin, over all bounces.
+  Column<float> qx, qy, qz;               ///< Where the query starts: off the surface.
   Column<double> weight[color_channels];  ///< What the ray's colour counts in its sample.
-  Column<std::uint32_t> sample;     ///< Which sample of the batch.
-  Column<float> t;                  ///< Found: distance,
+  Column<std::uint32_t> sample;           ///< Which sample of the batch.
+  Column<float> t;                        ///< Found: distance,
   Column<std::int32_t> instance, geometry, primitive;  ///< and which primitive; geometry -1: none.
 
   template <class F> void columns(F f) {
@@ -91,11 +92,12 @@ struct HitQueue {
   Column<double> sx, sy, sz;                          ///< Where rays start that leave on V's side,
   Column<double> bx, by, bz;                          ///< and those that go through.
   Column<std::uint32_t> ray, material;
-  Column<std::uint8_t> outside;                       ///< Whether V is on the outside.
-  Column<std::uint32_t> order;                        ///< The hits' numbers, model by model.
+  Column<std::uint8_t> outside;  ///< Whether V is on the outside.
+  Column<std::uint32_t> order;   ///< The hits' numbers, model by model.
 
   template <class F> void columns(F f) {
-    f(Px), f(Py), f(Pz), f(Nx), f(Ny), f(Nz), f(Vx), f(Vy), f(Vz), f(Gx), f(Gy), f(Gz), f(R), f(sx), f(sy), f(sz), f(bx), f(by), f(bz);
+    f(Px), f(Py), f(Pz), f(Nx), f(Ny), f(Nz), f(Vx), f(Vy), f(Vz), f(Gx), f(Gy), f(Gz), f(R), f(sx), f(sy),
+        f(sz), f(bx), f(by), f(bz);
     f(ray), f(material), f(outside), f(order);
   }
 };
@@ -103,19 +105,24 @@ struct HitQueue {
 /// How much of each light arrives at each hit; entry light * hits + hit.
 struct LightQueue {
   std::uint32_t capacity = 0;
-  Column<double> passes[color_channels];  ///< 1: nothing in the way, 0: blocked; between: through transmitting surfaces.
-  template <class F> void columns(F f) { for (auto& p : passes) f(p); }
+  Column<double>
+      passes[color_channels];  ///< 1: nothing in the way, 0: blocked; between: through transmitting surfaces.
+  template <class F> void columns(F f) {
+    for (auto& p : passes) f(p);
+  }
 };
 
 /// Sums over samples and pixels.
 struct ColorQueue {
   std::uint32_t capacity = 0;
   Column<double> color[color_channels];
-  template <class F> void columns(F f) { for (auto& c : color) f(c); }
+  template <class F> void columns(F f) {
+    for (auto& c : color) f(c);
+  }
 };
 
-/// One thread's memory; it grows as needed and is used again from tile to tile. grow() is not a kernel's code, so that no
-/// allocation is compiled for an instruction set.
+/// One thread's memory; it grows as needed and is used again from tile to tile. grow() is not a kernel's
+/// code, so that no allocation is compiled for an instruction set.
 struct Scratch {
   RayQueue rays, next_rays;
   HitQueue hits;

@@ -58,7 +58,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.height = scene.image.height;
   frame.film_width = frame.width + corners;
   frame.film_height = frame.height + corners;
-  prepared->pattern = corners ? std::vector<Vec2<double>>{{0, 0}} : sample_pattern(scene.image.samples, scene.image.filter);
+  prepared->pattern =
+      corners ? std::vector<Vec2<double>>{{0, 0}} : sample_pattern(scene.image.samples, scene.image.filter);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
   prepared->film.resize(std::size_t(frame.film_width) * frame.film_height * color_channels);
@@ -67,11 +68,13 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();
   frame.light_count = int(prepared->lights.size());
-  for (const Material& material : scene.materials) prepared->materials.push_back(material_record(material, scene.illumination.model));
+  for (const Material& material : scene.materials)
+    prepared->materials.push_back(material_record(material, scene.illumination.model));
   frame.materials = prepared->materials.data();
   for (int model = 0; model < model_count; ++model)
-    frame.fading[model] = {scene.illumination.attenuation.value_or(info(ModelId(model)).attenuation),
-                           scene.illumination.ambient_attenuation.value_or(info(ModelId(model)).ambient_attenuation)};
+    frame.fading[model] = {
+        scene.illumination.attenuation.value_or(info(ModelId(model)).attenuation),
+        scene.illumination.ambient_attenuation.value_or(info(ModelId(model)).ambient_attenuation)};
   frame.ambient = scene.illumination.ambient;
   frame.minimum_distance = scene.illumination.minimum_distance;
   frame.background = scene.background;

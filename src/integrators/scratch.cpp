@@ -6,8 +6,7 @@
 namespace lambent {
 namespace {
 
-template <class Queue>
-void grow_columns(Queue& queue, std::uint32_t capacity) {
+template <class Queue> void grow_columns(Queue& queue, std::uint32_t capacity) {
   queue.columns([&](auto& column) {
     using T = std::remove_reference_t<decltype(column[0])>;
     void* memory = std::realloc(column.data, std::size_t(capacity) * sizeof(T));
@@ -17,8 +16,7 @@ void grow_columns(Queue& queue, std::uint32_t capacity) {
   queue.capacity = capacity;
 }
 
-template <class Queue>
-void release(Queue& queue) {
+template <class Queue> void release(Queue& queue) {
   queue.columns([](auto& column) { std::free(column.data); });
 }
 

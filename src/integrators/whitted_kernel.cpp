@@ -1,10 +1,12 @@
 // The Whitted integrator (Whitted, An improved illumination model for shaded display, CACM 23(6), 1980):
 //
-//   colour of a ray = emission + I + reflect * (colour along the mirror ray) + transmit * (colour along the refracted ray)
+//   colour of a ray = emission + I + reflect * (colour along the mirror ray) + transmit * (colour along the
+//   refracted ray)
 //
-// with I the equation of equation.h. Rays of a tile are followed level by level: all eye rays, then all that these
-// threw, and so on; a ray's colour is added to its sample with the product of the factors on its way. Per sample the order of the sum is
-// fixed: level by level, rays in the order of those that threw them, the mirror ray before the refracted one.
+// with I the equation of equation.h. Rays of a tile are followed level by level: all eye rays, then all that
+// these threw, and so on; a ray's colour is added to its sample with the product of the factors on its way.
+// Per sample the order of the sum is fixed: level by level, rays in the order of those that threw them, the
+// mirror ray before the refracted one.
 //
 // This file is compiled once for each instruction set.
 
@@ -17,20 +19,26 @@ namespace lambent {
 inline namespace LAMBENT_ISA {
 namespace {
 
-// Queries run in float, shading in double: an error of R.V counts n times in (R.V)^n, so float could not keep 1e-6 where n >= 32.
+// Queries run in float, shading in double: an error of R.V counts n times in (R.V)^n, so float could not keep
+// 1e-6 where n >= 32.
 using QueryPack = Pack<float, native_float_lanes>;
 using ShadePack = Pack<double, native_float_lanes / 2>;
 constexpr int query_lanes = lanes_of<QueryPack>, shade_lanes = lanes_of<ShadePack>;
 
-constexpr std::uint32_t batch_size = 2048;           // samples that are followed together
-constexpr std::uint32_t light_entries = 1u << 18;    // hits * lights that are kept at a time
+constexpr std::uint32_t batch_size = 2048;         // samples that are followed together
+constexpr std::uint32_t light_entries = 1u << 18;  // hits * lights that are kept at a time
 
-template <class T> Vec3<double> at(const Column<T>& x, const Column<T>& y, const Column<T>& z, std::uint32_t i) { return {x[i], y[i], z[i]}; }
-inline void put(const Vec3<double>& v, const Column<double>& x, const Column<double>& y, const Column<double>& z, std::uint32_t i) {
+template <class T>
+Vec3<double> at(const Column<T>& x, const Column<T>& y, const Column<T>& z, std::uint32_t i) {
+  return {x[i], y[i], z[i]};
+}
+inline void put(const Vec3<double>& v, const Column<double>& x, const Column<double>& y,
+                const Column<double>& z, std::uint32_t i) {
   x[i] = v.x, y[i] = v.y, z[i] = v.z;
 }
 
-inline void push_ray(RayQueue& rays, const Vec3<double>& o, const Vec3<double>& start, const Vec3<double>& d, double R, const Rgb& weight, std::uint32_t sample) {
+inline void push_ray(RayQueue& rays, const Vec3<double>& o, const Vec3<double>& start, const Vec3<double>& d,
+                     double R, const Rgb& weight, std::uint32_t sample) {
   if (rays.count == rays.capacity) Scratch::grow(rays, rays.capacity * 2 + batch_size);
   const std::uint32_t i = rays.count++;
   put(o, rays.ox, rays.oy, rays.oz, i);
@@ -76,7 +84,8 @@ struct TileWork {
     develop();
   }
 
-  // ---- eye rays ------------------------------------------------------------------------------------------------------
+  // ---- eye rays
+  // ------------------------------------------------------------------------------------------------------
 
   void start_pixels() {
     if (scratch.pixels.capacity < pixel_count()) Scratch::grow(scratch.pixels, pixel_count());
@@ -98,14 +107,17 @@ struct TileWork {
       const double y = (half_height - (tile.y0 + int(pixel / width()) + point.y)) / half_height;
       const Vec3<double> aside = x * camera.right + y * camera.up;
       const Vec3<double> o = camera.eye + camera.spread_of_origins * aside;
-      push_ray(scratch.rays, o, o, normalize(camera.forward + camera.spread_of_directions * aside), 0, grey(1.0), i);
+      push_ray(scratch.rays, o, o, normalize(camera.forward + camera.spread_of_directions * aside), 0,
+               grey(1.0), i);
     }
     counts.eye += count;
   }
 
-  // ---- where rays end ------------------------------------------------------------------------------------------------
+  // ---- where rays end
+  // ------------------------------------------------------------------------------------------------
 
-  /// Eye rays lie close together and go through the tree in packets; scattered ones do not, and go one by one.
+  /// Eye rays lie close together and go through the tree in packets; scattered ones do not, and go one by
+  /// one.
   void trace(bool coherent) {
     RayQueue& rays = scratch.rays;
     std::uint32_t i = 0;
@@ -114,13 +126,13 @@ struct TileWork {
     for (; i < rays.count; ++i) trace_at<float>(rays, i);
   }
 
-  template <class F>
-  void trace_at(RayQueue& rays, std::uint32_t first) const {
+  template <class F> void trace_at(RayQueue& rays, std::uint32_t first) const {
     Vec3<F> o, d;
     for (int k = 0; k < lanes_of<F>; ++k) {
       const std::uint32_t i = first + k;
       set_lane(o.x, k, rays.qx[i]), set_lane(o.y, k, rays.qy[i]), set_lane(o.z, k, rays.qz[i]);
-      set_lane(d.x, k, float(rays.dx[i])), set_lane(d.y, k, float(rays.dy[i])), set_lane(d.z, k, float(rays.dz[i]));
+      set_lane(d.x, k, float(rays.dx[i])), set_lane(d.y, k, float(rays.dy[i])),
+          set_lane(d.z, k, float(rays.dz[i]));
     }
     Closest<F> hit{F(__builtin_inff())};
     find_closest(frame.world, QueryRay<F>(o, d), MaskOf<F>(true), hit);
@@ -133,8 +145,8 @@ struct TileWork {
     }
   }
 
-  /// Collects hits from ray `first` on, as many as the lights' memory allows, and gives the others the background. Returns the
-  /// first ray that it did not look at.
+  /// Collects hits from ray `first` on, as many as the lights' memory allows, and gives the others the
+  /// background. Returns the first ray that it did not look at.
   std::uint32_t gather_hits(std::uint32_t first) {
     const RayQueue& rays = scratch.rays;
     HitQueue& hits = scratch.hits;
@@ -152,7 +164,8 @@ struct TileWork {
 
   void add_hit(HitQueue& hits, const RayQueue& rays, std::uint32_t i) const {
     const Vec3<double> o = at(rays.ox, rays.oy, rays.oz, i), d = at(rays.dx, rays.dy, rays.dz, i);
-    const SurfacePoint s = surface_at(frame.world, {rays.instance[i], rays.geometry[i], rays.primitive[i]}, o, d, rays.t[i]);
+    const SurfacePoint s =
+        surface_at(frame.world, {rays.instance[i], rays.geometry[i], rays.primitive[i]}, o, d, rays.t[i]);
     const std::uint32_t h = hits.count++;
     const Vec3<double> V = -d;
     const bool outside = dot(s.Ng, V) >= 0;
@@ -178,10 +191,11 @@ struct TileWork {
         if (frame.materials[hits.material[h]].model == model) hits.order[next++] = h;
   }
 
-  // ---- lights and shadows --------------------------------------------------------------------------------------------
+  // ---- lights and shadows
+  // --------------------------------------------------------------------------------------------
 
-  /// Decides for each hit and light how much of the light passes. No shadow ray is thrown where the light is behind the
-  /// surface (N.L <= 0) or dark in this direction.
+  /// Decides for each hit and light how much of the light passes. No shadow ray is thrown where the light is
+  /// behind the surface (N.L <= 0) or dark in this direction.
   void look_at_lights() {
     const HitQueue& hits = scratch.hits;
     LightQueue& lights = scratch.lights;
@@ -201,8 +215,7 @@ struct TileWork {
     }
   }
 
-  template <class F>
-  LightSample<F, Color<F>> sample_light(int l, const Vec3<F>& P) const {
+  template <class F> LightSample<F, Color<F>> sample_light(int l, const Vec3<F>& P) const {
     LightSample<F, Color<F>> result;
     with_light(frame.lights[l], [&](const auto& light) { result = sample(light, P, F(0.5), F(0.5)); });
     return result;
@@ -220,7 +233,8 @@ struct TileWork {
     QueryPack t_far;
     void add(std::uint32_t h, std::uint32_t e, const Vec3<double>& L, double r, const HitQueue& hits) {
       hit[count] = h, entry[count] = e;
-      set_lane(o.x, count, float(hits.sx[h])), set_lane(o.y, count, float(hits.sy[h])), set_lane(o.z, count, float(hits.sz[h]));
+      set_lane(o.x, count, float(hits.sx[h])), set_lane(o.y, count, float(hits.sy[h])),
+          set_lane(o.z, count, float(hits.sz[h]));
       set_lane(d.x, count, float(L.x)), set_lane(d.y, count, float(L.y)), set_lane(d.z, count, float(L.z));
       set_lane(t_far, count, float(r));
       ++count;
@@ -232,7 +246,8 @@ struct TileWork {
     MaskOf<QueryPack> active(false);
     for (int k = 0; k < packet.count; ++k) set_lane(active, k, true);
     const bool all_opaque = !frame.any_transmits || !frame.whitted.colored_shadows;
-    const auto blocked = find_occluded(frame.world, QueryRay<QueryPack>(packet.o, packet.d), active, packet.t_far, all_opaque);
+    const auto blocked =
+        find_occluded(frame.world, QueryRay<QueryPack>(packet.o, packet.d), active, packet.t_far, all_opaque);
     for (int k = 0; k < packet.count; ++k) {
       if (lane(blocked, k)) set_passes(packet.entry[k], Rgb{});
       else if (!all_opaque) set_passes(packet.entry[k], transmittance(packet, k));
@@ -241,10 +256,11 @@ struct TileWork {
     packet.count = 0;
   }
 
-  /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the order in which the
-  /// ray meets them.
+  /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
+  /// order in which the ray meets them.
   Rgb transmittance(const ShadowPacket& packet, int k) const {
-    QueryRay<float> ray({lane(packet.o.x, k), lane(packet.o.y, k), lane(packet.o.z, k)}, {lane(packet.d.x, k), lane(packet.d.y, k), lane(packet.d.z, k)});
+    QueryRay<float> ray({lane(packet.o.x, k), lane(packet.o.y, k), lane(packet.o.z, k)},
+                        {lane(packet.d.x, k), lane(packet.d.y, k), lane(packet.d.z, k)});
     const Vec3<double> d = normalize(cast<double>(ray.d));
     double left = lane(packet.t_far, k);
     Rgb result = grey(1.0);
@@ -263,7 +279,8 @@ struct TileWork {
     }
   }
 
-  // ---- the equation --------------------------------------------------------------------------------------------------
+  // ---- the equation
+  // --------------------------------------------------------------------------------------------------
 
   void shade() {
     const HitQueue& hits = scratch.hits;
@@ -274,15 +291,17 @@ struct TileWork {
     for (std::uint32_t first = 0; first < hits.count;) {
       const int model = frame.materials[hits.material[hits.order[first]]].model;
       std::uint32_t last = first + 1;
-      while (last < hits.count && last < first + shade_lanes && frame.materials[hits.material[hits.order[last]]].model == model) ++last;
-      with_model(ModelId(model), [&]<class Model>() { shade_packet<Model>(frame.fading[model], first, int(last - first)); });
+      while (last < hits.count && last < first + shade_lanes &&
+             frame.materials[hits.material[hits.order[last]]].model == model)
+        ++last;
+      with_model(ModelId(model),
+                 [&]<class Model>() { shade_packet<Model>(frame.fading[model], first, int(last - first)); });
       first = last;
     }
   }
 
   /// Evaluates the equation for `count` hits of one model, one in each lane; lanes left over repeat the last.
-  template <class Model>
-  void shade_packet(const FadingRecord& fading, std::uint32_t first, int count) {
+  template <class Model> void shade_packet(const FadingRecord& fading, std::uint32_t first, int count) {
     using F = ShadePack;
     using C = Color<F>;
     const HitQueue& hits = scratch.hits;
@@ -299,7 +318,8 @@ struct TileWork {
       set_lane(R, k, hits.R[h]);
       const MaterialRecord& m = frame.materials[hits.material[h]];
       for (int c = 0; c < color_channels; ++c) {
-        set_lane(s.ka[c], k, m.ambient[c]), set_lane(s.kd[c], k, m.diffuse[c]), set_lane(s.ks[c], k, m.specular[c]);
+        set_lane(s.ka[c], k, m.ambient[c]), set_lane(s.kd[c], k, m.diffuse[c]),
+            set_lane(s.ks[c], k, m.specular[c]);
       }
       set_lane(s.n, k, m.shininess);
       for (int i = 0; i < max_model_parameters; ++i) set_lane(s.own[i], k, m.own[i]);
@@ -311,13 +331,15 @@ struct TileWork {
       Arriving<F, C> result{light.L, {}};
       for (int c = 0; c < color_channels; ++c) {
         F passes;
-        for (int k = 0; k < shade_lanes; ++k) set_lane(passes, k, lights.passes[c][std::size_t(l) * hits.count + hit[k]]);
+        for (int k = 0; k < shade_lanes; ++k)
+          set_lane(passes, k, lights.passes[c][std::size_t(l) * hits.count + hit[k]]);
         result.I[c] = passes * (faded * light.I[c]);
       }
       return result;
     };
     C Ia;
-    for (int c = 0; c < color_channels; ++c) Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, R, minimum);
+    for (int c = 0; c < color_channels; ++c)
+      Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, R, minimum);
 
     const C I = illuminate<Model>(s, Ia, frame.light_count, arriving);
 
@@ -331,10 +353,12 @@ struct TileWork {
   /// Adds a ray's colour to its sample.
   void add(std::uint32_t ray, const Rgb& color) {
     const std::uint32_t sample = scratch.rays.sample[ray];
-    for (int c = 0; c < color_channels; ++c) scratch.samples.color[c][sample] += scratch.rays.weight[c][ray] * color[c];
+    for (int c = 0; c < color_channels; ++c)
+      scratch.samples.color[c][sample] += scratch.rays.weight[c][ray] * color[c];
   }
 
-  // ---- mirror rays and refracted rays --------------------------------------------------------------------------------
+  // ---- mirror rays and refracted rays
+  // --------------------------------------------------------------------------------
 
   void follow() {
     const HitQueue& hits = scratch.hits;
@@ -347,7 +371,8 @@ struct TileWork {
   void follow(std::uint32_t h, const MaterialRecord& m) {
     const HitQueue& hits = scratch.hits;
     const std::uint32_t ray = hits.ray[h], sample = scratch.rays.sample[ray];
-    const Vec3<double> P = at(hits.Px, hits.Py, hits.Pz, h), N = at(hits.Nx, hits.Ny, hits.Nz, h), V = at(hits.Vx, hits.Vy, hits.Vz, h);
+    const Vec3<double> P = at(hits.Px, hits.Py, hits.Pz, h), N = at(hits.Nx, hits.Ny, hits.Nz, h),
+                       V = at(hits.Vx, hits.Vy, hits.Vz, h);
     const Vec3<double> G = at(hits.Gx, hits.Gy, hits.Gz, h);
     Rgb weight;
     for (int c = 0; c < color_channels; ++c) weight[c] = scratch.rays.weight[c][ray];
@@ -366,20 +391,26 @@ struct TileWork {
     const Rgb mirror_weight = weight * mirrored;
     if (!is_black(mirror_weight) || frame.whitted.trace_black_rays) {
       Vec3<double> mirror = reflect(V, N);
-      if (!(dot(mirror, G) > 0)) mirror = reflect(V, G);  // the shading normal leans too far: do not look into the surface
-      push_ray(scratch.next_rays, P, at(hits.sx, hits.sy, hits.sz, h), normalize(mirror), R, mirror_weight, sample);
+      if (!(dot(mirror, G) > 0))
+        mirror = reflect(V, G);  // the shading normal leans too far: do not look into the surface
+      push_ray(scratch.next_rays, P, at(hits.sx, hits.sy, hits.sz, h), normalize(mirror), R, mirror_weight,
+               sample);
       ++counts.reflection;
     }
     const Rgb through_weight = weight * m.transmit;
     if (refracted && (!is_black(through_weight) || frame.whitted.trace_black_rays)) {
-      push_ray(scratch.next_rays, P, at(hits.bx, hits.by, hits.bz, h), normalize(through), R, through_weight, sample);
+      push_ray(scratch.next_rays, P, at(hits.bx, hits.by, hits.bz, h), normalize(through), R, through_weight,
+               sample);
       ++counts.refraction;
     }
   }
 
-  /// Snell: sin(theta') = eta sin(theta), eta the index on V's side over that beyond. False where the light is reflected totally.
-  static bool refract(const Vec3<double>& V, const Vec3<double>& N, const Vec3<double>& G, double eta, Vec3<double>& through) {
-    for (const Vec3<double>& n : {N, G}) {  // the geometric normal where the shading normal would bend the ray back out
+  /// Snell: sin(theta') = eta sin(theta), eta the index on V's side over that beyond. False where the light
+  /// is reflected totally.
+  static bool refract(const Vec3<double>& V, const Vec3<double>& N, const Vec3<double>& G, double eta,
+                      Vec3<double>& through) {
+    for (const Vec3<double>& n :
+         {N, G}) {  // the geometric normal where the shading normal would bend the ray back out
       const double cosine = dot(n, V), k = 1 - eta * eta * (1 - cosine * cosine);
       if (k < 0) return false;
       through = (eta * cosine - sqrt(k)) * n - eta * V;
@@ -388,7 +419,8 @@ struct TileWork {
     return false;
   }
 
-  // ---- the film ------------------------------------------------------------------------------------------------------
+  // ---- the film
+  // ------------------------------------------------------------------------------------------------------
 
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -406,7 +438,9 @@ struct TileWork {
   }
 };
 
-void render_tile(const Frame& frame, const Tile& tile, Scratch& scratch, RayCounts& counts) { TileWork{frame, tile, scratch, counts}.run(); }
+void render_tile(const Frame& frame, const Tile& tile, Scratch& scratch, RayCounts& counts) {
+  TileWork{frame, tile, scratch, counts}.run();
+}
 
 }  // namespace
 

@@ -6,7 +6,8 @@
 namespace lambent {
 
 struct DirectionalLight {
-  static constexpr LightInfo info{"directional", "shines in one direction everywhere, from infinity; it does not fade",
+  static constexpr LightInfo info{"directional",
+                                  "shines in one direction everywhere, from infinity; it does not fade",
                                   "Il = color * intensity"};
 
   Vec3<double> direction{0, -1, 0};
@@ -16,16 +17,22 @@ struct DirectionalLight {
 
 inline namespace LAMBENT_ISA {
 
-template <class F>
-LightSample<F, Color<F>> sample(const DirectionalLight& light, const Vec3<F>&, F, F) {
-  return {-normalize(broadcast<F>(light.direction)), F(__builtin_inf()), emitted<F>(light.color, light.intensity), F(0)};
+template <class F> LightSample<F, Color<F>> sample(const DirectionalLight& light, const Vec3<F>&, F, F) {
+  return {-normalize(broadcast<F>(light.direction)), F(__builtin_inf()),
+          emitted<F>(light.color, light.intensity), F(0)};
 }
 
 }  // namespace LAMBENT_ISA
 
 template <>
 inline constexpr Parameter<DirectionalLight> parameters_of<DirectionalLight>[] = {
-    {"direction", &DirectionalLight::direction, {}, "", "The way the light travels; of any length.", true, Kind::direction},
+    {"direction",
+     &DirectionalLight::direction,
+     {},
+     "",
+     "The way the light travels; of any length.",
+     true,
+     Kind::direction},
     {"color", &DirectionalLight::color, at_least_zero, "", "The light's colour; [1, 1, 1] is white."},
     {"intensity", &DirectionalLight::intensity, at_least_zero, "", "A factor on the colour."},
 };

@@ -1,14 +1,14 @@
 #pragma once
 // The contract of a light.
 //
-// A light is a plain struct of settings, with its manual page (info), a table of parameters (what a scene file may
-// say), and a function
+// A light is a plain struct of settings, with its manual page (info), a table of parameters (what a scene
+// file may say), and a function
 //
 //   template <class F> LightSample<F, Color<F>> sample(const TheLight&, const Vec3<F>& P, F u, F v)
 //
-// which answers for one point on the light, chosen by u and v in [0, 1); (0.5, 0.5) is the light's centre. What it
-// hands out is the colour Il before attenuation: how light fades with distance is the scene's choice, not the light's.
-// The lecture's name for all this is light_t.
+// which answers for one point on the light, chosen by u and v in [0, 1); (0.5, 0.5) is the light's centre.
+// What it hands out is the colour Il before attenuation: how light fades with distance is the scene's choice,
+// not the light's. The lecture's name for all this is light_t.
 
 #include "math/color.h"
 #include "math/functions.h"
@@ -24,32 +24,29 @@ struct LightInfo {
 };
 
 /// One point of a light, as a surface point sees it.
-template <class F, class C>
-struct LightSample {
-  Vec3<F> L;   ///< Unit vector from the surface point to the light.
-  F r;         ///< Distance in scene units; infinity for a light at infinity.
-  C I;         ///< Colour sent this way (linear, 1 is white), times intensity; before attenuation and shadow.
-  F density;   ///< Per unit solid angle; 0 for a light without extent, which (u, v) cannot miss.
+template <class F, class C> struct LightSample {
+  Vec3<F> L;  ///< Unit vector from the surface point to the light.
+  F r;        ///< Distance in scene units; infinity for a light at infinity.
+  C I;        ///< Colour sent this way (linear, 1 is white), times intensity; before attenuation and shadow.
+  F density;  ///< Per unit solid angle; 0 for a light without extent, which (u, v) cannot miss.
 };
 
 inline namespace LAMBENT_ISA {
 
-/// L and r for a light at `position`. At the light itself there is no direction: L is then zero, and N.L with it.
-template <class F>
-LightSample<F, Color<F>> towards(const Vec3<F>& position, const Vec3<F>& P) {
+/// L and r for a light at `position`. At the light itself there is no direction: L is then zero, and N.L with
+/// it.
+template <class F> LightSample<F, Color<F>> towards(const Vec3<F>& position, const Vec3<F>& P) {
   const Vec3<F> way = position - P;
   const F r = length(way);
   return {select(r > F(0), way / r, Vec3<F>{F(0), F(0), F(0)}), r, Color<F>{}, F(0)};
 }
 
-template <class F>
-Color<F> emitted(const Rgb& color, double intensity) {
+template <class F> Color<F> emitted(const Rgb& color, double intensity) {
   Color<F> result;
   for (int i = 0; i < color_channels; ++i) result[i] = F(color[i] * intensity);
   return result;
 }
-template <class F>
-Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
+template <class F> Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
 
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

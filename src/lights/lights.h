@@ -17,8 +17,7 @@ using AnyLight = std::variant<
 inline namespace LAMBENT_ISA {
 
 /// Calls visitor(light) with the struct that `light` holds.
-template <class Visitor>
-decltype(auto) with_light(const AnyLight& light, Visitor&& visitor) {
+template <class Visitor> decltype(auto) with_light(const AnyLight& light, Visitor&& visitor) {
 #define LAMBENT_LIGHT(name, Struct) \
   if (auto* one = std::get_if<Struct>(&light)) return visitor(*one);
 #include "lights/lights.def"

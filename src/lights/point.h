@@ -6,7 +6,8 @@
 namespace lambent {
 
 struct PointLight {
-  static constexpr LightInfo info{"point", "shines from one position, alike in all directions", "Il = color * intensity"};
+  static constexpr LightInfo info{"point", "shines from one position, alike in all directions",
+                                  "Il = color * intensity"};
 
   Vec3<double> position{0, 0, 0};
   Rgb color{1, 1, 1};
@@ -15,8 +16,7 @@ struct PointLight {
 
 inline namespace LAMBENT_ISA {
 
-template <class F>
-LightSample<F, Color<F>> sample(const PointLight& light, const Vec3<F>& P, F, F) {
+template <class F> LightSample<F, Color<F>> sample(const PointLight& light, const Vec3<F>& P, F, F) {
   auto result = towards(broadcast<F>(light.position), P);
   result.I = emitted<F>(light.color, light.intensity);
   return result;

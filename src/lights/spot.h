@@ -5,16 +5,17 @@
 //
 //   Il = color * intensity * (cos theta)^exponent * S((cos theta - cos a) / (cos b - cos a))
 //
-// where S(x) = 3x^2 - 2x^3 on [0, 1], 0 below and 1 above: full light up to b from the axis, none beyond a. With
-// softness 0 the edge is hard: full light where cos theta >= cos a.
+// where S(x) = 3x^2 - 2x^3 on [0, 1], 0 below and 1 above: full light up to b from the axis, none beyond a.
+// With softness 0 the edge is hard: full light where cos theta >= cos a.
 
 #include "lights/light.h"
 
 namespace lambent {
 
 struct SpotLight {
-  static constexpr LightInfo info{"spot", "shines into a cone around the way from position to target",
-                                  "Il = color * intensity * (cos theta)^exponent * S((cos theta - cos a) / (cos b - cos a))"};
+  static constexpr LightInfo info{
+      "spot", "shines into a cone around the way from position to target",
+      "Il = color * intensity * (cos theta)^exponent * S((cos theta - cos a) / (cos b - cos a))"};
 
   Vec3<double> position{0, 0, 0};
   Vec3<double> target{0, 0, 0};
@@ -27,13 +28,14 @@ struct SpotLight {
 
 inline namespace LAMBENT_ISA {
 
-template <class F>
-LightSample<F, Color<F>> sample(const SpotLight& light, const Vec3<F>& P, F, F) {
+template <class F> LightSample<F, Color<F>> sample(const SpotLight& light, const Vec3<F>& P, F, F) {
   auto result = towards(broadcast<F>(light.position), P);
   const F cos_theta = -dot(result.L, broadcast<F>(normalize(light.target - light.position)));
-  const double cos_a = sincos_degrees(light.angle / 2).cos, cos_b = sincos_degrees((1 - light.softness) * light.angle / 2).cos;
+  const double cos_a = sincos_degrees(light.angle / 2).cos,
+               cos_b = sincos_degrees((1 - light.softness) * light.angle / 2).cos;
   const double width = cos_b - cos_a;
-  const F x = width > 0 ? max(F(0), min(F(1), (cos_theta - F(cos_a)) / F(width))) : select(cos_theta >= F(cos_a), F(1), F(0));
+  const F x = width > 0 ? max(F(0), min(F(1), (cos_theta - F(cos_a)) / F(width)))
+                        : select(cos_theta >= F(cos_a), F(1), F(0));
   const F falloff = x * x * (F(3) - F(2) * x) * pow(max(cos_theta, F(0)), F(light.exponent));
   result.I = falloff * emitted<F>(light.color, light.intensity);
   return result;
@@ -44,12 +46,23 @@ LightSample<F, Color<F>> sample(const SpotLight& light, const Vec3<F>& P, F, F) 
 template <>
 inline constexpr Parameter<SpotLight> parameters_of<SpotLight>[] = {
     {"position", &SpotLight::position, {}, "scene units", "Where the light is.", true, Kind::point},
-    {"target", &SpotLight::target, {}, "scene units", "A point on the cone's axis; not the position.", true, Kind::point},
+    {"target",
+     &SpotLight::target,
+     {},
+     "scene units",
+     "A point on the cone's axis; not the position.",
+     true,
+     Kind::point},
     {"color", &SpotLight::color, at_least_zero, "", "The light's colour; [1, 1, 1] is white."},
     {"intensity", &SpotLight::intensity, at_least_zero, "", "A factor on the colour."},
     {"angle", &SpotLight::angle, {0.01, 180}, "degrees", "Full opening angle of the cone."},
-    {"softness", &SpotLight::softness, zero_to_one, "", "The share of the half-angle over which the edge fades; 0 is a hard edge."},
-    {"exponent", &SpotLight::exponent, {0, 1000}, "", "Power of the cosine to the axis; 0 lights the cone evenly."},
+    {"softness", &SpotLight::softness, zero_to_one, "",
+     "The share of the half-angle over which the edge fades; 0 is a hard edge."},
+    {"exponent",
+     &SpotLight::exponent,
+     {0, 1000},
+     "",
+     "Power of the cosine to the axis; 0 lights the cone evenly."},
 };
 
 }  // namespace lambent

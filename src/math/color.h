@@ -1,5 +1,6 @@
 #pragma once
-// Colours: one number for each channel. Three channels (linear RGB) today; nothing outside this room assumes so.
+// Colours: one number for each channel. Three channels (linear RGB) today; nothing outside this room assumes
+// so.
 
 #include "math/isa.h"
 #include "math/number.h"
@@ -8,8 +9,7 @@ namespace lambent {
 
 inline constexpr int color_channels = 3;
 
-template <class F, int Channels = color_channels>
-struct Color {
+template <class F, int Channels = color_channels> struct Color {
   F c[Channels]{};
   constexpr F& operator[](int i) { return c[i]; }
   constexpr const F& operator[](int i) const { return c[i]; }
@@ -46,7 +46,8 @@ template <class F, int C> constexpr bool operator==(const Color<F, C>& a, const 
     if (!(a[i] == b[i])) return false;
   return true;
 }
-template <class F, int C, class M> Color<F, C> select(const M& m, const Color<F, C>& a, const Color<F, C>& b) {
+template <class F, int C, class M>
+Color<F, C> select(const M& m, const Color<F, C>& a, const Color<F, C>& b) {
   Color<F, C> result;
   for (int i = 0; i < C; ++i) result[i] = select(m, a[i], b[i]);
   return result;

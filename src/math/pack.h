@@ -1,6 +1,7 @@
 #pragma once
-// W numbers that behave as one: a lane for each ray, point or hit. Built on the compilers' vector extension, so an
-// operation is one instruction where W is the machine's width. Comparisons give a Mask; select(mask, a, b) chooses.
+// W numbers that behave as one: a lane for each ray, point or hit. Built on the compilers' vector extension,
+// so an operation is one instruction where W is the machine's width. Comparisons give a Mask; select(mask, a,
+// b) chooses.
 
 #include <cstring>
 
@@ -24,9 +25,9 @@ template <int Bytes> struct IntOfSize;
 template <> struct IntOfSize<4> { using type = std::int32_t; };
 template <> struct IntOfSize<8> { using type = std::int64_t; };
 
-/// One truth for each of W lanes: all bits of an Int set, or none. Int is as wide as the numbers that were compared.
-template <class Int, int W>
-struct Mask {
+/// One truth for each of W lanes: all bits of an Int set, or none. Int is as wide as the numbers that were
+/// compared.
+template <class Int, int W> struct Mask {
   using Raw = typename RawPack<Int, W>::type;
   Raw v;
   Mask() : v{} {}
@@ -44,8 +45,7 @@ template <class Int, int W> bool any(Mask<Int, W> m) {
 }
 template <class Int, int W> bool all(Mask<Int, W> m) { return !any(!m); }
 
-template <class T, int W>
-struct Pack {
+template <class T, int W> struct Pack {
   using Raw = typename RawPack<T, W>::type;
   using Truth = Mask<typename IntOfSize<sizeof(T)>::type, W>;
   Raw v;
@@ -71,7 +71,9 @@ struct Pack {
   friend Truth operator==(Pack a, Pack b) { return typename Truth::Raw(a.v == b.v); }
 };
 
-template <class T, int W> Pack<T, W> select(typename Pack<T, W>::Truth m, Pack<T, W> a, Pack<T, W> b) { return m.v ? a.v : b.v; }
+template <class T, int W> Pack<T, W> select(typename Pack<T, W>::Truth m, Pack<T, W> a, Pack<T, W> b) {
+  return m.v ? a.v : b.v;
+}
 template <class T, int W> Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) { return select(a > b, a, b); }
 template <class T, int W> Pack<T, W> min(Pack<T, W> a, Pack<T, W> b) { return select(a < b, a, b); }
 template <class T, int W> Pack<T, W> abs(Pack<T, W> a) { return select(a < Pack<T, W>(T(0)), -a, a); }
@@ -96,8 +98,11 @@ template <class T, int W> T lane(const Pack<T, W>& a, int i) { return a.v[i]; }
 inline bool lane(bool a, int) { return a; }
 template <class Int, int W> bool lane(const Mask<Int, W>& a, int i) { return a.v[i] != 0; }
 inline void set_lane(bool& a, int, bool value) { a = value; }
-template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) { a.v[i] = value ? Int(-1) : Int(0); }
-template <Scalar T> requires(!std::is_same_v<T, bool>) void set_lane(T& a, int, T value) { a = value; }
+template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) {
+  a.v[i] = value ? Int(-1) : Int(0);
+}
+template <Scalar T>
+requires(!std::is_same_v<T, bool>) void set_lane(T& a, int, T value) { a = value; }
 template <class T, int W> void set_lane(Pack<T, W>& a, int i, T value) { a.v[i] = value; }
 
 /// The type of a comparison of two F.

@@ -1,5 +1,6 @@
 #pragma once
-// Affine transforms, in double. Named target_from_source: world_from_object takes an object's point into the world.
+// Affine transforms, in double. Named target_from_source: world_from_object takes an object's point into the
+// world.
 
 #include "math/functions.h"
 #include "math/vec.h"
@@ -14,11 +15,16 @@ struct Transform {
 
 inline namespace LAMBENT_ISA {
 
-inline Vec3<double> transform_vector(const Transform& t, const Vec3<double>& v) { return v.x * t.x + v.y * t.y + v.z * t.z; }
-inline Vec3<double> transform_point(const Transform& t, const Vec3<double>& p) { return transform_vector(t, p) + t.translation; }
+inline Vec3<double> transform_vector(const Transform& t, const Vec3<double>& v) {
+  return v.x * t.x + v.y * t.y + v.z * t.z;
+}
+inline Vec3<double> transform_point(const Transform& t, const Vec3<double>& p) {
+  return transform_vector(t, p) + t.translation;
+}
 /// First b, then a.
 inline Transform operator*(const Transform& a, const Transform& b) {
-  return {transform_vector(a, b.x), transform_vector(a, b.y), transform_vector(a, b.z), transform_point(a, b.translation)};
+  return {transform_vector(a, b.x), transform_vector(a, b.y), transform_vector(a, b.z),
+          transform_point(a, b.translation)};
 }
 inline double determinant(const Transform& t) { return dot(t.x, cross(t.y, t.z)); }
 /// determinant(t) must not be zero.
@@ -29,12 +35,14 @@ inline Transform inverse(const Transform& t) {
   result.translation = -transform_vector(result, t.translation);
   return result;
 }
-/// The transpose of t's linear part applied to v: with t = object_from_world it takes an object's normal into the world.
+/// The transpose of t's linear part applied to v: with t = object_from_world it takes an object's normal into
+/// the world.
 inline Vec3<double> transform_normal(const Transform& inverse_of_t, const Vec3<double>& n) {
   return {dot(inverse_of_t.x, n), dot(inverse_of_t.y, n), dot(inverse_of_t.z, n)};
 }
 inline bool is_identity(const Transform& t) {
-  return t.x == Vec3<double>{1, 0, 0} && t.y == Vec3<double>{0, 1, 0} && t.z == Vec3<double>{0, 0, 1} && t.translation == Vec3<double>{};
+  return t.x == Vec3<double>{1, 0, 0} && t.y == Vec3<double>{0, 1, 0} && t.z == Vec3<double>{0, 0, 1} &&
+         t.translation == Vec3<double>{};
 }
 
 inline Transform translation(const Vec3<double>& by) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, by}; }

@@ -6,27 +6,33 @@
 
 namespace lambent {
 
-template <class F>
-struct Vec2 {
-  F x{}, y{};
-};
+template <class F> struct Vec2 { F x{}, y{}; };
 
-template <class F>
-struct Vec3 {
-  F x{}, y{}, z{};
-};
+template <class F> struct Vec3 { F x{}, y{}, z{}; };
 
 inline namespace LAMBENT_ISA {
 
-template <class F> constexpr Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <class F> constexpr Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+template <class F> constexpr Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class F> constexpr Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 template <class F> constexpr Vec3<F> operator-(const Vec3<F>& a) { return {-a.x, -a.y, -a.z}; }
-template <class F> constexpr Vec3<F> operator*(const F& s, const Vec3<F>& a) { return {s * a.x, s * a.y, s * a.z}; }
+template <class F> constexpr Vec3<F> operator*(const F& s, const Vec3<F>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
 template <class F> constexpr Vec3<F> operator*(const Vec3<F>& a, const F& s) { return s * a; }
-template <class F> constexpr Vec3<F> operator/(const Vec3<F>& a, const F& s) { return {a.x / s, a.y / s, a.z / s}; }
-template <class F> constexpr bool operator==(const Vec3<F>& a, const Vec3<F>& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+template <class F> constexpr Vec3<F> operator/(const Vec3<F>& a, const F& s) {
+  return {a.x / s, a.y / s, a.z / s};
+}
+template <class F> constexpr bool operator==(const Vec3<F>& a, const Vec3<F>& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
-template <class F> constexpr F dot(const Vec3<F>& a, const Vec3<F>& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+template <class F> constexpr F dot(const Vec3<F>& a, const Vec3<F>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 template <class F> constexpr Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -1,7 +1,7 @@
 #pragma once
-// What can be set, said once: a table of parameters beside each struct of settings. The scene reader, the JSON Schema, the
-// manual, `lambent list` and everything else that must know a parameter read the same table. The default is the
-// value that a default-constructed struct holds.
+// What can be set, said once: a table of parameters beside each struct of settings. The scene reader, the
+// JSON Schema, the manual, `lambent list` and everything else that must know a parameter read the same table.
+// The default is the value that a default-constructed struct holds.
 
 #include <limits>
 #include <variant>
@@ -24,8 +24,7 @@ inline constexpr Range positive{1e-10};  ///< What is below counts as a mistake,
 enum class Kind { value, point, direction };
 
 /// One parameter that a member of S holds.
-template <class S>
-struct Parameter {
+template <class S> struct Parameter {
   using Member = std::variant<double S::*, int S::*, bool S::*, Rgb S::*, Vec3<double> S::*>;
   const char* name;
   Member member;

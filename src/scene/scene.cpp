@@ -66,10 +66,7 @@ std::string fault(const Mesh& mesh) {
                std::to_string(count) + " vertices";
   return {};
 }
-template <class P>
-std::string fault(const std::vector<P>&) {
-  return {};
-}
+template <class P> std::string fault(const std::vector<P>&) { return {}; }
 
 /// Everything that an infinite plane is made of; what is bounded is judged by its bounds.
 bool planes_in_reach(const Shape& shape, const Transform& world_from_object) {

@@ -1,8 +1,9 @@
 #pragma once
 // The scene: plain structs with indices. Everything that makes a picture, and nothing about how it is made.
 //
-// Lengths are in scene units, angles in degrees, colours linear RGB. Right-handed coordinates. Each struct of settings has
-// its table of parameters beside it: the file format, its schema and the manual are made from these tables.
+// Lengths are in scene units, angles in degrees, colours linear RGB. Right-handed coordinates. Each struct of
+// settings has its table of parameters beside it: the file format, its schema and the manual are made from
+// these tables.
 
 #include <array>
 #include <cstdint>
@@ -33,16 +34,30 @@ struct Camera {
 template <>
 inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
     {"eye", &Camera::eye, {}, "scene units", "Where the camera stands.", true, Kind::point},
-    {"target", &Camera::target, {}, "scene units", "The point in the middle of the picture.", true, Kind::point},
-    {"up", &Camera::up, {}, "", "The direction that is up in the picture; not along the way to the target.", false, Kind::direction},
+    {"target",
+     &Camera::target,
+     {},
+     "scene units",
+     "The point in the middle of the picture.",
+     true,
+     Kind::point},
+    {"up",
+     &Camera::up,
+     {},
+     "",
+     "The direction that is up in the picture; not along the way to the target.",
+     false,
+     Kind::direction},
     {"fov", &Camera::fov, {0.01, 179}, "degrees", "Vertical field of view of a perspective camera."},
     {"height", &Camera::height, positive, "scene units", "Height of what an orthographic camera sees."},
 };
 
 /// Where the samples of a pixel lie.
 enum class Pattern {
-  stratified,  ///< `samples` points in each pixel, spread evenly, the same in every pixel; one sample is the centre.
-  corners,     ///< One ray through each corner of the pixels, a pixel is the mean of its four (the SPD benchmark's rule).
+  stratified,  ///< `samples` points in each pixel, spread evenly, the same in every pixel; one sample is the
+               ///< centre.
+  corners,     ///< One ray through each corner of the pixels, a pixel is the mean of its four (the SPD
+               ///< benchmark's rule).
 };
 enum class Filter { box, tent };
 /// What a PNG holds.
@@ -60,21 +75,26 @@ struct ImageSettings {
 };
 template <>
 inline constexpr Parameter<ImageSettings> parameters_of<ImageSettings>[] = {
-    {"samples", &ImageSettings::samples, {1, 65536}, "", "Rays through each pixel; with one, it goes through the centre."},
+    {"samples",
+     &ImageSettings::samples,
+     {1, 65536},
+     "",
+     "Rays through each pixel; with one, it goes through the centre."},
 };
 
 /// The choices of the lecture that hold for the whole scene.
 struct Illumination {
   ModelId model = ModelId::phong;
-  Rgb ambient{1, 1, 1};                                    ///< Ia.
-  std::optional<Attenuation> attenuation;                  ///< Unset: the model's own.
-  std::optional<AmbientAttenuation> ambient_attenuation;   ///< Likewise.
+  Rgb ambient{1, 1, 1};                                   ///< Ia.
+  std::optional<Attenuation> attenuation;                 ///< Unset: the model's own.
+  std::optional<AmbientAttenuation> ambient_attenuation;  ///< Likewise.
   double minimum_distance = 1e-3;
 };
 template <>
 inline constexpr Parameter<Illumination> parameters_of<Illumination>[] = {
     {"ambient", &Illumination::ambient, at_least_zero, "", "The ambient light Ia."},
-    {"minimum_distance", &Illumination::minimum_distance, positive, "scene units", "r and R count as at least this, so that 1/r stays finite."},
+    {"minimum_distance", &Illumination::minimum_distance, positive, "scene units",
+     "r and R count as at least this, so that 1/r stays finite."},
 };
 
 struct WhittedSettings {
@@ -85,12 +105,24 @@ struct WhittedSettings {
 };
 template <>
 inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
-    {"max_depth", &WhittedSettings::max_depth, {1, 64}, "", "How often a ray may be followed on; the ray from the eye is 1."},
+    {"max_depth",
+     &WhittedSettings::max_depth,
+     {1, 64},
+     "",
+     "How often a ray may be followed on; the ray from the eye is 1."},
     {"shadows", &WhittedSettings::shadows, {}, "", "Whether objects block light."},
-    {"colored_shadows", &WhittedSettings::colored_shadows, {}, "",
-     "Whether a transmitting surface lets light through, straight on, times its transmit; if not, it blocks as any other."},
-    {"trace_black_rays", &WhittedSettings::trace_black_rays, {}, "",
-     "Whether mirror rays are thrown from every reflecting or transmitting surface though their colour counts nothing, as the SPD benchmark counts rays."},
+    {"colored_shadows",
+     &WhittedSettings::colored_shadows,
+     {},
+     "",
+     "Whether a transmitting surface lets light through, straight on, times its transmit; if not, it blocks "
+     "as any other."},
+    {"trace_black_rays",
+     &WhittedSettings::trace_black_rays,
+     {},
+     "",
+     "Whether mirror rays are thrown from every reflecting or transmitting surface though their colour "
+     "counts nothing, as the SPD benchmark counts rays."},
 };
 
 struct Material {
@@ -104,22 +136,36 @@ struct Material {
   Rgb transmit{0, 0, 0};
   double ior = 1.5;
   Rgb emission{0, 0, 0};
-  std::optional<ModelId> model;               ///< Unset: the scene's.
-  std::map<std::string, double> own;          ///< The models' own parameters that the file gives, by name.
+  std::optional<ModelId> model;       ///< Unset: the scene's.
+  std::map<std::string, double> own;  ///< The models' own parameters that the file gives, by name.
 };
 template <>
 inline constexpr Parameter<Material> parameters_of<Material>[] = {
-    {"ambient", &Material::ambient, at_least_zero, "", "Ka, what the surface sends back of the ambient light; the lecture's getambient()."},
-    {"diffuse", &Material::diffuse, at_least_zero, "", "Kd, the share of light scattered alike in all directions; getdiffuse()."},
+    {"ambient", &Material::ambient, at_least_zero, "",
+     "Ka, what the surface sends back of the ambient light; the lecture's getambient()."},
+    {"diffuse", &Material::diffuse, at_least_zero, "",
+     "Kd, the share of light scattered alike in all directions; getdiffuse()."},
     {"specular", &Material::specular, at_least_zero, "", "Ks, the strength of the highlight; getspecular()."},
-    {"shininess", &Material::shininess, {0, 1e6}, "", "n, the highlight's power: the larger, the smaller the highlight."},
-    {"reflect", &Material::reflect, at_least_zero, "", "Factor on the colour that comes along the mirror ray."},
-    {"transmit", &Material::transmit, at_least_zero, "", "Factor on the colour that comes along the refracted ray."},
-    {"ior", &Material::ior, {0.01, 100}, "", "Index of refraction of what lies behind the surface; 1 does not bend."},
-    {"emission", &Material::emission, at_least_zero, "", "Light of its own, added to everything; it lights no other surface."},
+    {"shininess",
+     &Material::shininess,
+     {0, 1e6},
+     "",
+     "n, the highlight's power: the larger, the smaller the highlight."},
+    {"reflect", &Material::reflect, at_least_zero, "",
+     "Factor on the colour that comes along the mirror ray."},
+    {"transmit", &Material::transmit, at_least_zero, "",
+     "Factor on the colour that comes along the refracted ray."},
+    {"ior",
+     &Material::ior,
+     {0.01, 100},
+     "",
+     "Index of refraction of what lies behind the surface; 1 does not bend."},
+    {"emission", &Material::emission, at_least_zero, "",
+     "Light of its own, added to everything; it lights no other surface."},
 };
 
-// ---- shapes: arrays of primitives of one kind -------------------------------------------------------------------------
+// ---- shapes: arrays of primitives of one kind
+// -------------------------------------------------------------------------
 
 struct Sphere {
   Vec3<double> center{0, 0, 0};
@@ -137,7 +183,13 @@ struct Plane {
 };
 template <>
 inline constexpr Parameter<Plane> parameters_of<Plane>[] = {
-    {"point", &Plane::point, {}, "scene units", "Any point of the plane; of a bounded one, its middle.", true, Kind::point},
+    {"point",
+     &Plane::point,
+     {},
+     "scene units",
+     "Any point of the plane; of a bounded one, its middle.",
+     true,
+     Kind::point},
     {"normal", &Plane::normal, {}, "", "The direction it faces; of any length.", true, Kind::direction},
 };
 
@@ -153,7 +205,8 @@ inline constexpr Parameter<Disc> parameters_of<Disc>[] = {
     {"radius", &Disc::radius, positive, "scene units", "The radius.", true},
 };
 
-/// A cone's side between two circles; a cylinder has two equal radii. Open at both ends (caps are discs of their own).
+/// A cone's side between two circles; a cylinder has two equal radii. Open at both ends (caps are discs of
+/// their own).
 struct Cone {
   Vec3<double> from{0, 0, 0};
   Vec3<double> to{0, 1, 0};
@@ -167,7 +220,8 @@ inline constexpr Parameter<Cone> parameters_of<Cone>[] = {
     {"radius_to", &Cone::radius_to, at_least_zero, "scene units", "Radius at `to`.", true},
 };
 
-/// A triangle mesh. Faces are counter-clockwise seen from outside. normals and uvs are empty, or one for each vertex.
+/// A triangle mesh. Faces are counter-clockwise seen from outside. normals and uvs are empty, or one for each
+/// vertex.
 struct Mesh {
   std::vector<Vec3<float>> vertices;
   std::vector<Vec3<float>> normals;  ///< Unit length (or zero: then the face's own normal is taken).
@@ -175,13 +229,15 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-using Primitives = std::variant<Mesh, std::vector<Sphere>, std::vector<Cone>, std::vector<Disc>, std::vector<Plane>>;
+using Primitives =
+    std::variant<Mesh, std::vector<Sphere>, std::vector<Cone>, std::vector<Disc>, std::vector<Plane>>;
 
 /// Primitives of one kind, in coordinates of their own; any number of objects may show them.
 struct Shape {
   std::string name;  ///< "sphere", "balls.nff", ...: for people.
   Primitives primitives;
-  /// Which of the object's materials each primitive has: an index into Object::materials. Empty: all the first.
+  /// Which of the object's materials each primitive has: an index into Object::materials. Empty: all the
+  /// first.
   std::vector<std::uint32_t> material_of_primitive;
 };
 std::size_t primitive_count(const Shape& shape);
@@ -226,11 +282,12 @@ struct Bounds {
 Bounds bounds(const Scene& scene);
 Bounds bounds(const Shape& shape, const Transform& world_from_object = {});
 
-/// Largest absolute coordinate that the ray queries are made for: their products of three coordinates stay finite
-/// in float up to here.
+/// Largest absolute coordinate that the ray queries are made for: their products of three coordinates stay
+/// finite in float up to here.
 inline constexpr double largest_coordinate = 1e10;
 
-/// What the reader of one file cannot see: coordinates out of reach once placed in the world, indices that point nowhere. Empty: all is well.
+/// What the reader of one file cannot see: coordinates out of reach once placed in the world, indices that
+/// point nowhere. Empty: all is well.
 std::vector<Diagnostic> validate(const Scene& scene);
 
 }  // namespace lambent

@@ -30,16 +30,14 @@ std::string yaml_quoted(std::string_view text) {
 }
 
 /// Any value that a parameter may have, as one would write it.
-template <class T>
-std::string value_text(const T& value) {
+template <class T> std::string value_text(const T& value) {
   if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
   else if constexpr (std::is_same_v<T, int>) return fmt::format("{}", value);
   else return text_of(value);
 }
 
 /// "{eye: [0, 0, 5], fov: 40}": the parameters that are required or differ from their defaults.
-template <class S>
-std::string settings_text(const S& settings) {
+template <class S> std::string settings_text(const S& settings) {
   static constexpr S defaults{};
   std::string result;
   for (const Parameter<S>& parameter : parameters_of<S>)
@@ -158,9 +156,10 @@ constexpr Lamp lamps[] = {
 };
 constexpr double lamp_distance = 5;          // radii of the model, from its centre
 constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
-constexpr double background_grey = 0.02;      // what the floor has faded to at its far end, under 1/r, 1/R and the cosine: no edge shows
+// What the floor has faded to at its far end, under 1/r, 1/R and the cosine: no edge shows.
+constexpr double background_grey = 0.02;
 constexpr double floor_grey = 0.3;
-constexpr double floor_radius = 60;          // radii of the model
+constexpr double floor_radius = 60;  // radii of the model
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
 std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& rounded) {
@@ -194,22 +193,26 @@ std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& 
 std::string own_lights_text(const std::vector<Light>& lights) {
   std::string text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "# The rules of the Standard Procedural Databases and their pictures: nothing fades, there is\n"
-                 "# no ambient light, what transmits casts a full shadow, and every surface that reflects or\n"
-                 "# transmits throws a mirror ray.\n");
+  fmt::format_to(
+      out,
+      "# The rules of the Standard Procedural Databases and their pictures: nothing fades, there is\n"
+      "# no ambient light, what transmits casts a full shadow, and every surface that reflects or\n"
+      "# transmits throws a mirror ray.\n");
   fmt::format_to(out,
                  "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n  ambient_attenuation: {}\n",
                  info(ModelId::phong).name, text_of(attenuation_none), text_of(Rgb{}),
                  text_of(AmbientAttenuation::none));
-  fmt::format_to(out, "integrator: {{whitted: {{max_depth: 5, colored_shadows: false, trace_black_rays: true}}}}\n\nlights:\n");
+  fmt::format_to(out,
+                 "integrator: {{whitted: {{max_depth: 5, colored_shadows: false, trace_black_rays: "
+                 "true}}}}\n\nlights:\n");
   for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light));
   return text;
 }
 
-/// Camera and lights stand apart from the model, and must be in reach too.
+/// Camera, lights and floor stand apart from the model, and must be in reach too.
 void check_reach(const Camera& camera, const Ball& ball, const std::string& path) {
-  const double reach = max(max_abs(camera.eye), max_abs(ball.center) + lamp_distance * ball.radius);
+  const double reach =
+      max(max_abs(camera.eye), max_abs(ball.center) + max(lamp_distance, floor_radius) * ball.radius);
   if (reach <= largest_coordinate) return;
   Diagnostic diagnostic;
   diagnostic.place.file = path;
@@ -252,8 +255,8 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
                  model.camera ? "The file's own view."
                               : "From three quarters and a little above; all of the model is in the picture.",
                  settings_text(camera));
-  fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width, image.height,
-                 image.samples, text_of(image.pattern), text_of(image.encoding));
+  fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width,
+                 image.height, image.samples, text_of(image.pattern), text_of(image.encoding));
   if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
   else if (!model.camera && !own_lights)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));

@@ -11,8 +11,7 @@
 namespace lambent {
 namespace {
 
-template <class S>
-struct AsField {
+template <class S> struct AsField {
   const Parameter<S>& parameter;
   Field& field;
   S defaults{};  // a temporary would do, but g++ 12 warns of its members without a cause
@@ -33,8 +32,7 @@ struct AsField {
   }
 };
 
-template <class S>
-std::vector<Field> fields_of() {
+template <class S> std::vector<Field> fields_of() {
   std::vector<Field> fields;
   for (const Parameter<S>& parameter : parameters_of<S>) {
     Field field;
@@ -106,8 +104,7 @@ std::vector<Section> model_sections() {
   return models;
 }
 
-template <class L>
-Section light_section() {
+template <class L> Section light_section() {
   Section light = section(L::info.name, L::info.title, fields_of<L>());
   light.equation = L::info.equation;
   return light;
@@ -198,7 +195,8 @@ Format make_format() {
                   "Where samples lie: `stratified` spreads them evenly over each pixel, `corners` sends one "
                   "ray through each corner of the pixels and takes the mean of four."),
               choice("encoding", names_of<Encoding>(), text_of(image.encoding),
-                     "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as they are, as "
+                     "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as "
+                     "they are, as "
                      "renderers once did. EXR is always linear.")});
   f.attenuation =
       section("attenuation", "1 / (constant + linear r + quadratic r^2)", fields_of<AttenuationSettings>());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <memory>
 
@@ -62,6 +63,33 @@ void must_exist(const std::string& path) {
   throw InputError(diagnostic);
 }
 
+struct PictureSize {
+  int width = 1280, height = 720;
+};
+
+/// The size that the settings ask for, so that the automatic camera frames for it. What is wrong with them is
+/// said when they are applied to the scene.
+PictureSize size_asked_for(const LoadOptions& options) {
+  Document document = parse_yaml("lambent: 1", "settings");
+  for (const auto& [key, value] : options.set) {
+    try {
+      if (key.starts_with("image")) apply_setting(document, key, value);
+    } catch (const InputError&) {
+    }
+  }
+  PictureSize size;
+  const Node* image = value_of(*document.root, "image");
+  const Node* sides = image ? value_of(*image, "size") : nullptr;
+  if (!sides || sides->kind != Node::Kind::list || sides->children.size() != 2) return size;
+  const auto side = [&](int i) {
+    const std::string& text = sides->children[std::size_t(i)]->text;
+    int number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return std::clamp(number, 1, 65536);
+  };
+  return {side(0), side(1)};
+}
+
 bool is_scene_file(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
@@ -84,7 +112,8 @@ ScenePtr load_scene(const std::string& path, const LoadOptions& options) {
     throw InputError(diagnostic);
   }
   Model model = import_model(path);
-  const std::string text = scene_text(model, path);
+  const auto [width, height] = size_asked_for(options);
+  const std::string text = scene_text(model, path, width, height);
   LoadedModels models;
   models.emplace(model_key(folder_of(path), fs::path(path).filename().string()), std::move(model));
   return read(text, path + " (the scene made for it)", path, options, std::move(models));

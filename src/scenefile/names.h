@@ -12,8 +12,7 @@
 namespace lambent {
 
 /// The table of the choice E: what it is called, what it is.
-template <class E>
-inline constexpr int words_of = 0;
+template <class E> inline constexpr int words_of = 0;
 template <>
 inline constexpr std::pair<const char*, Projection> words_of<Projection>[] = {
     {"perspective", Projection::perspective}, {"orthographic", Projection::orthographic}};
@@ -33,16 +32,14 @@ template <>
 inline constexpr std::pair<const char*, Attenuation> words_of<Attenuation>[] = {
     {"none", attenuation_none}, {"1/r", attenuation_1_over_r}, {"1/r^2", attenuation_1_over_r2}};
 
-template <class E>
-std::vector<std::string> names_of() {
+template <class E> std::vector<std::string> names_of() {
   std::vector<std::string> names;
   for (const auto& [word, value] : words_of<E>) names.push_back(word);
   return names;
 }
 
 /// What `word` means, or nothing.
-template <class E>
-std::optional<E> meaning_of(std::string_view word) {
+template <class E> std::optional<E> meaning_of(std::string_view word) {
   for (const auto& [name, value] : words_of<E>)
     if (word == name) return value;
   return {};

@@ -65,15 +65,13 @@ class Reader {
   bool direction(const Value& value, const Range& range, Vec3<double>& out);
   bool text(const Value& value, const std::string& what, std::string& out);
   /// Exactly `out.size()` numbers.
-  template <std::size_t N>
-  bool numbers(const Value& value, const Range& range, std::array<double, N>& out) {
+  template <std::size_t N> bool numbers(const Value& value, const Range& range, std::array<double, N>& out) {
     return numbers(value, range, out.data(), N);
   }
   bool numbers(const Value& value, const Range& range, double* out, std::size_t count);
 
   /// One of the words of E.
-  template <class E>
-  bool choice(const Value& value, E& out) {
+  template <class E> bool choice(const Value& value, E& out) {
     std::string word;
     if (!one_of(value, names_of<E>(), word)) return false;
     out = *meaning_of<E>(word);
@@ -82,8 +80,7 @@ class Reader {
   bool one_of(const Value& value, const std::vector<std::string>& words, std::string& out);
 
   /// Every parameter of S's table that `values` holds.
-  template <class S>
-  bool table(const Values& values, const std::vector<Field>& fields, S& out) {
+  template <class S> bool table(const Values& values, const std::vector<Field>& fields, S& out) {
     const std::size_t before = count();
     for (const Parameter<S>& parameter : parameters_of<S>) {
       const Value* value = values.find(parameter.name);

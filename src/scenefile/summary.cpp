@@ -18,8 +18,7 @@ std::string plain(int v) { return std::to_string(v); }
 std::string plain(bool v) { return v ? "true" : "false"; }
 
 /// "position 3 4 4, intensity 8": what is required, and what is not as it is by default.
-template <class S>
-std::string detail(const S& settings) {
+template <class S> std::string detail(const S& settings) {
   std::string result;
   const S defaults{};
   for (const Parameter<S>& parameter : parameters_of<S>) {

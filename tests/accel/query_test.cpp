@@ -1,5 +1,5 @@
-// The ray queries against brute force and against their promises: the same answer whatever the tree and the packet, no ray lost between
-// triangles, no ray that hits the surface it leaves.
+// The ray queries against brute force and against their promises: the same answer whatever the tree and the
+// packet, no ray lost between triangles, no ray that hits the surface it leaves.
 
 #include <gtest/gtest.h>
 
@@ -59,13 +59,15 @@ Mesh ball(int rings, double radius, const Vec3<double>& center) {
       mesh.vertices.push_back(cast<float>(center + radius * n));
       mesh.normals.push_back(cast<float>(n));
     }
-  for (auto& v : mesh.vertices) {  // one pole, not `columns` of them, so that the mesh is closed in floats too
+  for (auto& v :
+       mesh.vertices) {  // one pole, not `columns` of them, so that the mesh is closed in floats too
     if (&v - mesh.vertices.data() < columns) v = mesh.vertices[0];
     if (&v - mesh.vertices.data() >= rings * columns) v = mesh.vertices[std::size_t(rings) * columns];
   }
   for (int i = 0; i < rings; ++i)
     for (int j = 0; j < columns; ++j) {
-      const auto a = std::uint32_t(i * columns + j), b = std::uint32_t(i * columns + (j + 1) % columns), c = a + columns, d = b + columns;
+      const auto a = std::uint32_t(i * columns + j), b = std::uint32_t(i * columns + (j + 1) % columns),
+                 c = a + columns, d = b + columns;
       if (i > 0) mesh.triangles.push_back({a, b, c});
       if (i < rings - 1) mesh.triangles.push_back({b, d, c});
     }
@@ -82,7 +84,8 @@ Scene random_scene(Random& random, double spread) {
   std::vector<Disc> discs;
   for (int i = 0; i < 60; ++i) {
     spheres.push_back({shift + random.point(1), random.number(0.01, 0.15)});
-    cones.push_back({shift + random.point(1), shift + random.point(1), random.number(0, 0.1), random.number(0.01, 0.1)});
+    cones.push_back(
+        {shift + random.point(1), shift + random.point(1), random.number(0, 0.1), random.number(0.01, 0.1)});
     discs.push_back({shift + random.point(1), random.direction(), random.number(0.01, 0.3)});
   }
   add_object(scene, spheres);
@@ -92,9 +95,15 @@ Scene random_scene(Random& random, double spread) {
   const auto shape = std::uint32_t(scene.shapes.size());
   scene.shapes.push_back({"", ball(8, 0.3, {}), {}});
   for (int i = 0; i < 5; ++i)
-    scene.objects.push_back({"", {}, shape, {0}, translation(shift + random.point(1)) * rotation(random.direction(), random.number(0, 360)) *
-                                                     scaling({random.number(0.3, 1), random.number(0.3, 1), i % 2 ? -0.7 : 0.7})});
-  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 0.3}}, translation(shift) * scaling({1, 0.5, 0.2}));  // an ellipsoid
+    scene.objects.push_back(
+        {"",
+         {},
+         shape,
+         {0},
+         translation(shift + random.point(1)) * rotation(random.direction(), random.number(0, 360)) *
+             scaling({random.number(0.3, 1), random.number(0.3, 1), i % 2 ? -0.7 : 0.7})});
+  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 0.3}},
+             translation(shift) * scaling({1, 0.5, 0.2}));  // an ellipsoid
   return scene;
 }
 
@@ -112,7 +121,8 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
     for (const Bvh& tree : world.bvhs) {
       std::uint32_t first = UINT32_MAX, last = 0;
       const auto visit = [&](auto&& self, const BvhNode& node) -> void {
-        if (node.count == 0) return self(self, world.nodes[node.first]), self(self, world.nodes[node.first + 1]);
+        if (node.count == 0)
+          return self(self, world.nodes[node.first]), self(self, world.nodes[node.first + 1]);
         first = std::min(first, node.first), last = std::max(last, node.first + node.count);
       };
       visit(visit, world.nodes[tree.root]);
@@ -149,7 +159,10 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
       const auto blocked = find_occluded(view, packet, MaskOf<QueryPack>(true), QueryPack(1.f), true);
       for (int k = 0; k < lanes; ++k) {
         hits += expected[k].ids.geometry >= 0;
-        for (const Closest<float>& got : {alone[k], Closest<float>{lane(together.t, k), {lane(together.ids.instance, k), lane(together.ids.geometry, k), lane(together.ids.primitive, k)}}}) {
+        for (const Closest<float>& got :
+             {alone[k], Closest<float>{lane(together.t, k),
+                                       {lane(together.ids.instance, k), lane(together.ids.geometry, k),
+                                        lane(together.ids.primitive, k)}}}) {
           ASSERT_EQ(bits(got.t), bits(expected[k].t));
           ASSERT_EQ(got.ids.instance, expected[k].ids.instance);
           ASSERT_EQ(got.ids.geometry, expected[k].ids.geometry);
@@ -173,7 +186,8 @@ TEST(Queries, NoRayIsLostBetweenTheTrianglesOfAClosedMesh) {
     long lost = 0, rays = 0;
     const auto shoot = [&](const Vec3<double>& o, const Vec3<double>& target) {
       Closest<float> hit{INFINITY};
-      find_closest(world.view(), QueryRay<float>{cast<float>(o), cast<float>(normalize(target - o))}, true, hit);
+      find_closest(world.view(), QueryRay<float>{cast<float>(o), cast<float>(normalize(target - o))}, true,
+                   hit);
       lost += hit.ids.geometry < 0;
       ++rays;
     };
@@ -181,7 +195,8 @@ TEST(Queries, NoRayIsLostBetweenTheTrianglesOfAClosedMesh) {
       const Vec3<double> o = center + random.point(0.4);
       for (const auto& triangle : mesh.triangles)
         for (int k = 0; k < 3; ++k) {
-          const auto a = cast<double>(mesh.vertices[triangle[k]]), b = cast<double>(mesh.vertices[triangle[(k + 1) % 3]]);
+          const auto a = cast<double>(mesh.vertices[triangle[k]]),
+                     b = cast<double>(mesh.vertices[triangle[(k + 1) % 3]]);
           shoot(o, a);
           shoot(o, a + random.number(0, 1) * (b - a));
         }
@@ -197,7 +212,8 @@ TEST(Queries, NoRayIsLostInAGrid) {
   Mesh mesh;
   Random random(3);
   for (int y = 0; y <= n; ++y)
-    for (int x = 0; x <= n; ++x) mesh.vertices.push_back({x / float(n), y / float(n), float(0.02 * random.number(-1, 1))});
+    for (int x = 0; x <= n; ++x)
+      mesh.vertices.push_back({x / float(n), y / float(n), float(0.02 * random.number(-1, 1))});
   for (std::uint32_t y = 0; y < n; ++y)
     for (std::uint32_t x = 0; x < n; ++x) {
       const std::uint32_t a = y * (n + 1) + x, b = a + 1, c = a + n + 1, d = c + 1;
@@ -211,7 +227,8 @@ TEST(Queries, NoRayIsLostInAGrid) {
   for (int y = 1; y < n; ++y)
     for (int x = 1; x < n; ++x) {
       const auto& v = vertices[std::size_t(y) * (n + 1) + x];
-      for (const Vec3<float>& o : {Vec3<float>{v.x, v.y, 1}, Vec3<float>{(x + 0.5f) / n, v.y, 1}, Vec3<float>{v.x, (y + 0.3f) / n, 1}}) {
+      for (const Vec3<float>& o : {Vec3<float>{v.x, v.y, 1}, Vec3<float>{(x + 0.5f) / n, v.y, 1},
+                                   Vec3<float>{v.x, (y + 0.3f) / n, 1}}) {
         Closest<float> hit{INFINITY};
         find_closest(world.view(), QueryRay<float>{o, {0, 0, -1}}, true, hit);
         lost += hit.ids.geometry < 0;
@@ -220,7 +237,8 @@ TEST(Queries, NoRayIsLostInAGrid) {
   EXPECT_EQ(lost, 0);
 }
 
-/// Rays that leave surface points of every kind, on both sides and near the horizon too, must not hit the primitive they leave.
+/// Rays that leave surface points of every kind, on both sides and near the horizon too, must not hit the
+/// primitive they leave.
 TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
   for (double spread : {0.0, 10.0, 1000.0, 1e6}) {
     Random random(unsigned(spread) + 20);
@@ -239,15 +257,19 @@ TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
       for (double side : {1.0, -1.0}) {
         const Vec3<double> n = side * s.Ng;
         const Vec3<double> tangent = normalize(cross(n, random.direction()));
-        const Vec3<double> ways[] = {n, normalize(n + random.direction()), normalize(tangent + 1e-3 * n), normalize(tangent + 1e-6 * n)};
+        const Vec3<double> ways[] = {n, normalize(n + random.direction()), normalize(tangent + 1e-3 * n),
+                                     normalize(tangent + 1e-6 * n)};
         for (const Vec3<double>& way : ways) {
           if (dot(way, n) <= 0) continue;
           ++leaves;
           const QueryRay<float> leaving{cast<float>(s.P + s.offset * n), cast<float>(way)};
           Closest<float> again{INFINITY};
           find_closest(view, leaving, true, again);
-          const bool same = again.ids.instance == hit.ids.instance && again.ids.geometry == hit.ids.geometry && again.ids.primitive == hit.ids.primitive;
-          // From inside a sphere or a cone the far side is a true hit: only a hit where the ray starts is a false one.
+          const bool same = again.ids.instance == hit.ids.instance &&
+                            again.ids.geometry == hit.ids.geometry &&
+                            again.ids.primitive == hit.ids.primitive;
+          // From inside a sphere or a cone the far side is a true hit: only a hit where the ray starts is a
+          // false one.
           const bool curved = kind == PrimitiveKind::sphere || kind == PrimitiveKind::cone;
           self_hits += same && (!curved || side > 0);
         }
@@ -259,24 +281,34 @@ TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
 }
 
 TEST(Queries, NoRayHitsAFlatPrimitiveThroughTheOrigin) {
-  // Where a coordinate of the surface is 0 the rounding of float gives no offset, and P's own in double decides.
-  for (const Vec3<double>& normal : {Vec3<double>{0, 1, 0}, Vec3<double>{1, 0, 0}, normalize(Vec3<double>{1, -1, 0}), normalize(Vec3<double>{1, 2, 3})}) {
+  // Where a coordinate of the surface is 0 the rounding of float gives no offset, and P's own in double
+  // decides.
+  for (const Vec3<double>& normal : {Vec3<double>{0, 1, 0}, Vec3<double>{1, 0, 0},
+                                     normalize(Vec3<double>{1, -1, 0}), normalize(Vec3<double>{1, 2, 3})}) {
     Scene scene;
     add_object(scene, std::vector<Plane>{{{0, 0, 0}, normal}});
     add_object(scene, std::vector<Disc>{{{0, 0, 0}, normal, 50}});
     const Vec3<double> a = normalize(cross(normal, Vec3<double>{0.3, 0.2, 0.9})), b = cross(normal, a);
-    add_object(scene, Mesh{{cast<float>(-1000.0 * a), cast<float>(1000.0 * a - 500.0 * b), cast<float>(500.0 * a + 1000.0 * b)}, {}, {}, {{0, 1, 2}}});
+    add_object(scene, Mesh{{cast<float>(-1000.0 * a), cast<float>(1000.0 * a - 500.0 * b),
+                            cast<float>(500.0 * a + 1000.0 * b)},
+                           {},
+                           {},
+                           {{0, 1, 2}}});
     const World world = build_world(scene);
     Random random(31);
     for (int geometry = 0; geometry < 3; ++geometry) {
       long self_hits = 0;
       for (int i = 0; i < 20000; ++i) {
-        const Vec3<double> o = random.number(0.5, 9) * normal + random.point(0.1), target = std::pow(10, random.number(-9, 1)) * (random.number(-1, 1) * a + random.number(-1, 1) * b);
+        const Vec3<double> o = random.number(0.5, 9) * normal + random.point(0.1),
+                           target = std::pow(10, random.number(-9, 1)) *
+                                    (random.number(-1, 1) * a + random.number(-1, 1) * b);
         const Vec3<double> d = normalize(target - o);
         const SurfacePoint s = surface_at(world.view(), {-1, geometry, 0}, o, d, length(target - o));
         const double side = dot(s.Ng, d) < 0 ? 1 : -1;
         const Vec3<double> way = normalize(side * s.Ng + 0.999 * random.direction());
-        const Meeting<float> again = meet(world.geometries[geometry], 0, QueryRay<float>{cast<float>(s.P + side * s.offset * s.Ng), cast<float>(way)});
+        const Meeting<float> again =
+            meet(world.geometries[geometry], 0,
+                 QueryRay<float>{cast<float>(s.P + side * s.offset * s.Ng), cast<float>(way)});
         self_hits += again.hit;
       }
       EXPECT_EQ(self_hits, 0) << "geometry " << geometry;
@@ -286,7 +318,8 @@ TEST(Queries, NoRayHitsAFlatPrimitiveThroughTheOrigin) {
 
 TEST(Queries, EqualDistanceGoesToTheLowestNumber) {
   Scene scene;
-  add_object(scene, std::vector<Disc>{{{0, 0, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 0, 1}, 2}, {{0, 0, 0}, {0, 0, 1}, 3}});
+  add_object(scene, std::vector<Disc>{
+                        {{0, 0, 0}, {0, 0, 1}, 1}, {{0, 0, 0}, {0, 0, 1}, 2}, {{0, 0, 0}, {0, 0, 1}, 3}});
   const World world = build_world(scene);
   for (double x : {0.5, 1.5, 2.5}) {
     Closest<float> hit{INFINITY};
@@ -298,7 +331,8 @@ TEST(Queries, EqualDistanceGoesToTheLowestNumber) {
 TEST(Surface, PointAndNormalAreExact) {
   Scene scene;
   add_object(scene, std::vector<Sphere>{{{1, 2, 3}, 0.5}});
-  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 1}}, translation({10, 0, 0}) * scaling({1, 2, 1}));  // x^2 + (y/2)^2 + z^2 = 1
+  add_object(scene, std::vector<Sphere>{{{0, 0, 0}, 1}},
+             translation({10, 0, 0}) * scaling({1, 2, 1}));  // x^2 + (y/2)^2 + z^2 = 1
   add_object(scene, std::vector<Cone>{{{20, 0, 0}, {20, 2, 0}, 1, 0}});
   const World world = build_world(scene);
   const auto look = [&](const Vec3<double>& o, const Vec3<double>& d) {
@@ -316,7 +350,7 @@ TEST(Surface, PointAndNormalAreExact) {
   // gradient (0, 2y/4, 2z) at (0, 1, sqrt(3)/2)
   EXPECT_NEAR(length(ellipsoid.N - normalize(Vec3<double>{0, 0.5, std::sqrt(3.0)})), 0, 1e-15);
   const SurfacePoint cone = look({20, 1, 9}, d);
-  EXPECT_NEAR(cone.P.z, 0.5, 1e-15);  // radius 1 - y/2
+  EXPECT_NEAR(cone.P.z, 0.5, 1e-15);                                           // radius 1 - y/2
   EXPECT_NEAR(length(cone.N - normalize(Vec3<double>{0, 0.5, 1})), 0, 1e-15);  // slope 1/2
 }
 

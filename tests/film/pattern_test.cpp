@@ -40,7 +40,8 @@ TEST(Pattern, EveryDyadicBoxHoldsOneSampleWhereTheCountIsAPowerOfTwo) {
     for (int wide = 0; wide <= bits; ++wide) {
       const int columns = 1 << wide, rows = 1 << (bits - wide);
       std::set<int> boxes;
-      for (const auto& point : sample_pattern(1 << bits, Filter::box)) boxes.insert(int(point.y * rows) * columns + int(point.x * columns));
+      for (const auto& point : sample_pattern(1 << bits, Filter::box))
+        boxes.insert(int(point.y * rows) * columns + int(point.x * columns));
       EXPECT_EQ(int(boxes.size()), 1 << bits) << columns << " x " << rows;
     }
 }

@@ -1,4 +1,5 @@
-// Each model against its closed form, and what all models have in common. The formula stands beside the number.
+// Each model against its closed form, and what all models have in common. The formula stands beside the
+// number.
 
 #include <gtest/gtest.h>
 
@@ -16,13 +17,16 @@ namespace {
 
 using C = Color<double>;
 
-/// A point with N up, the eye at angle `eye` and the light at angle `light` from N, in degrees, in one plane; positive to the right.
+/// A point with N up, the eye at angle `eye` and the light at angle `light` from N, in degrees, in one plane;
+/// positive to the right.
 struct Situation {
   Surface<double, C> s;
   Arriving<double, C> light;
 };
 Situation situation(double light, double eye, double n) {
-  const auto direction = [](double degrees) { return Vec3<double>{std::sin(degrees * M_PI / 180), std::cos(degrees * M_PI / 180), 0}; };
+  const auto direction = [](double degrees) {
+    return Vec3<double>{std::sin(degrees * M_PI / 180), std::cos(degrees * M_PI / 180), 0};
+  };
   Situation result{};
   result.s = {{0, 1, 0}, direction(eye), {}, {{0.8, 0.4, 0.2}}, {{0.5, 0.6, 0.7}}, n, {}};
   result.light = {direction(light), {{1, 2, 4}}};
@@ -30,8 +34,7 @@ Situation situation(double light, double eye, double n) {
 }
 double cosine(double degrees) { return std::cos(degrees * M_PI / 180); }
 
-template <class Model>
-void expect_terms(const Situation& situation, double diffuse, double specular) {
+template <class Model> void expect_terms(const Situation& situation, double diffuse, double specular) {
   const Terms<C> got = Model::evaluate(situation.s, situation.light);
   for (int c = 0; c < color_channels; ++c) {
     const double I = situation.light.I[c];
@@ -55,9 +58,9 @@ TEST(Attenuated, IsConventionalWithOneOverRSquared) {
 TEST(Phong, HighlightIsAroundTheMirroredLight) {
   // L at 30 to the left, R at 30 to the right; V at 50 to the right: the angle between R and V is 20.
   expect_terms<Phong>(situation(-30, 50, 10), cosine(30), std::pow(cosine(20), 10));
-  expect_terms<Phong>(situation(-30, 30, 1e6), cosine(30), 1);            // V = R
-  expect_terms<Phong>(situation(-30, -61, 3), cosine(30), 0);             // R.V < 0
-  expect_terms<Phong>(situation(-91, 89, 1), 0, 0);                       // light behind: no highlight, though R.V is 0.99
+  expect_terms<Phong>(situation(-30, 30, 1e6), cosine(30), 1);  // V = R
+  expect_terms<Phong>(situation(-30, -61, 3), cosine(30), 0);   // R.V < 0
+  expect_terms<Phong>(situation(-91, 89, 1), 0, 0);  // light behind: no highlight, though R.V is 0.99
 }
 
 TEST(BlinnPhong, HighlightIsAroundTheHalfVector) {
@@ -100,10 +103,15 @@ TEST(Equation, ObserverSeesTheSummandsInOrder) {
   const Situation a = situation(-30, 50, 10);
   C sum{};
   std::string order;
-  const C I = illuminate<Phong>(a.s, C{{1, 1, 1}}, 2, [&](int) { return a.light; }, [&](Term term, int light, const C& value) {
-    sum = sum + value;
-    order += std::string(term == Term::ambient ? "a" : term == Term::diffuse ? "d" : "s") + (light < 0 ? "" : std::to_string(light)) + " ";
-  });
+  const C I = illuminate<Phong>(
+      a.s, C{{1, 1, 1}}, 2, [&](int) { return a.light; },
+      [&](Term term, int light, const C& value) {
+        sum = sum + value;
+        order += std::string(term == Term::ambient   ? "a"
+                             : term == Term::diffuse ? "d"
+                                                     : "s") +
+                 (light < 0 ? "" : std::to_string(light)) + " ";
+      });
   EXPECT_EQ(order, "a d0 s0 d1 s1 ");
   EXPECT_TRUE(sum == I);  // bit for bit
 }
@@ -113,13 +121,15 @@ TEST(Attenuation, ClosedForms) {
   EXPECT_EQ(attenuate(attenuation_1_over_r, 4.0, 1e-3), 1 / 4.0);
   EXPECT_EQ(attenuate(attenuation_1_over_r2, 4.0, 1e-3), 1 / 16.0);
   EXPECT_DOUBLE_EQ(attenuate(Attenuation{1, 2, 3}, 2.0, 1e-3), 1 / (1 + 2 * 2 + 3 * 4.0));
-  EXPECT_EQ(attenuate(attenuation_1_over_r, 0.0, 1e-3), 1000);                 // r counts as at least the minimum
-  EXPECT_EQ(attenuate(attenuation_1_over_r2, double(INFINITY), 1e-3), 1);      // a light at infinity does not fade
+  EXPECT_EQ(attenuate(attenuation_1_over_r, 0.0, 1e-3), 1000);  // r counts as at least the minimum
+  EXPECT_EQ(attenuate(attenuation_1_over_r2, double(INFINITY), 1e-3),
+            1);  // a light at infinity does not fade
   EXPECT_EQ(attenuate(AmbientAttenuation::none, 9.0, 1e-3), 1);
   EXPECT_EQ(attenuate(AmbientAttenuation::one_over_R, 8.0, 1e-3), 1 / 8.0);
 }
 
-// ---- what holds for every model of models.def: a new one is tested here without a word ---------------------------------
+// ---- what holds for every model of models.def: a new one is tested here without a word
+// ---------------------------------
 
 Vec3<double> random_direction(std::mt19937& random) {
   std::normal_distribution<double> d;
@@ -135,13 +145,13 @@ Situation random_situation(std::mt19937& random, const ModelInfo& model) {
   result.s.kd = {{u(random), u(random), u(random)}};
   result.s.ks = {{u(random), u(random), u(random)}};
   result.s.n = 200 * u(random);
-  for (int i = 0; i < max_model_parameters && model.parameters[i].name; ++i) result.s.own[i] = model.parameters[i].default_value;
+  for (int i = 0; i < max_model_parameters && model.parameters[i].name; ++i)
+    result.s.own[i] = model.parameters[i].default_value;
   result.light = {random_direction(random), {{u(random), u(random), u(random)}}};
   return result;
 }
 
-template <class Visitor>
-void for_each_model(const Visitor& visitor) {
+template <class Visitor> void for_each_model(const Visitor& visitor) {
   for (int id = 0; id < model_count; ++id) {
     SCOPED_TRACE(info(ModelId(id)).name);
     with_model(ModelId(id), [&]<class Model>() { visitor.template operator()<Model>(); });
@@ -218,11 +228,14 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
       Arriving<P, CP> light{};
       for (int k = 0; k < lanes_of<P>; ++k) {
         one[k] = random_situation(random, Model::info);
-        const auto copy = [k](Vec3<P>& to, const Vec3<double>& from) { set_lane(to.x, k, from.x), set_lane(to.y, k, from.y), set_lane(to.z, k, from.z); };
+        const auto copy = [k](Vec3<P>& to, const Vec3<double>& from) {
+          set_lane(to.x, k, from.x), set_lane(to.y, k, from.y), set_lane(to.z, k, from.z);
+        };
         copy(s.N, one[k].s.N), copy(s.V, one[k].s.V), copy(light.L, one[k].light.L);
         set_lane(s.n, k, one[k].s.n);
         for (int c = 0; c < color_channels; ++c)
-          set_lane(s.kd[c], k, one[k].s.kd[c]), set_lane(s.ks[c], k, one[k].s.ks[c]), set_lane(light.I[c], k, one[k].light.I[c]);
+          set_lane(s.kd[c], k, one[k].s.kd[c]), set_lane(s.ks[c], k, one[k].s.ks[c]),
+              set_lane(light.I[c], k, one[k].light.I[c]);
         for (int j = 0; j < max_model_parameters; ++j) set_lane(s.own[j], k, one[k].s.own[j]);
       }
       const auto together = Model::evaluate(s, light);
@@ -237,15 +250,18 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
   });
 }
 
-// ---- a model of somebody else's ----------------------------------------------------------------------------------------
+// ---- a model of somebody else's
+// ----------------------------------------------------------------------------------------
 
 /// CONTRIBUTING.md's example, as it would stand in a file of its own.
 struct Minnaert {
-  static constexpr ModelInfo info{.name = "minnaert", .title = "the dark or bright limb of moons and velvet", .equation = "Il Kd (N.L)+ ((N.L)(N.V))^(k - 1)",
-                                  .source = "Minnaert, The reciprocity principle in lunar photometry, 1941",
-                                  .parameters = {{"limb", 1.0, 1.0, 4.0, "", "k: 1 is Lambert's law, more darkens the limb."}}};
-  template <class F, class C>
-  static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
+  static constexpr ModelInfo info{
+      .name = "minnaert",
+      .title = "the dark or bright limb of moons and velvet",
+      .equation = "Il Kd (N.L)+ ((N.L)(N.V))^(k - 1)",
+      .source = "Minnaert, The reciprocity principle in lunar photometry, 1941",
+      .parameters = {{"limb", 1.0, 1.0, 4.0, "", "k: 1 is Lambert's law, more darkens the limb."}}};
+  template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const F nl = max(dot(s.N, light.L), F(0)), nv = max(dot(s.N, s.V), F(0));
     return {nl * pow(nl * nv, s.own[0] - F(1)) * (s.kd * light.I), C{}};
   }
@@ -258,7 +274,11 @@ TEST(ANewModel, NeedsNothingButItsStruct) {
   x.s.own[0] = 1;
   expect_terms<Minnaert>(x, 0.5, 0);  // k = 1 is Lambert
   const Surface<float, Color<float>> s{{0, 1, 0}, {0, 1, 0}, {}, {{1, 1, 1}}, {}, 1, {2}};
-  EXPECT_FLOAT_EQ(illuminate<Minnaert>(s, Color<float>{}, 1, [](int) { return Arriving<float, Color<float>>{{0, 1, 0}, {{1, 1, 1}}}; })[0], 1.f);
+  EXPECT_FLOAT_EQ(illuminate<Minnaert>(s, Color<float>{}, 1,
+                                       [](int) {
+                                         return Arriving<float, Color<float>>{{0, 1, 0}, {{1, 1, 1}}};
+                                       })[0],
+                  1.f);
 }
 
 }  // namespace

@@ -18,8 +18,7 @@ namespace fs = std::filesystem;
 const Image red{2, 1, {"R", "G", "B"}, {1, 0, 0, 1, 0, 0}};
 
 /// What the action throws, as "InputError: ..." or "Failure: ...".
-template <class Action>
-std::string thrown_by(const Action& action) {
+template <class Action> std::string thrown_by(const Action& action) {
   try {
     action();
   } catch (const InputError& error) {

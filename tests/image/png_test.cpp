@@ -87,7 +87,8 @@ TEST(Png, ASingleChannelIsGrey) {
 }
 
 TEST(Png, SaysThatItIsSrgb) {
-  EXPECT_NE(encode_png({1, 1, {"R", "G", "B"}, {0, 0, 0}}, {}, {8, true}, "a.png").find("sRGB"), std::string::npos);
+  EXPECT_NE(encode_png({1, 1, {"R", "G", "B"}, {0, 0, 0}}, {}, {8, true}, "a.png").find("sRGB"),
+            std::string::npos);
 }
 
 TEST(Png, RefusesWhatItCannotHold) {

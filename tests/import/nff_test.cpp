@@ -34,8 +34,7 @@ std::vector<std::string> errors_of(const std::string& text) {
 }
 using Errors = std::vector<std::string>;
 
-template <class P>
-const P* primitives(const Model& model) {
+template <class P> const P* primitives(const Model& model) {
   for (const Shape& shape : model.shapes)
     if (const P* found = std::get_if<P>(&shape.primitives)) return found;
   return nullptr;

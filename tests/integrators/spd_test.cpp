@@ -1,6 +1,6 @@
-// Haines' Standard Procedural Databases: the rays that a scene takes, counted against his table. The format's files come with no picture to agree
-// with bit for bit; the number of rays of each kind is what the benchmark compares, and it notices any error in geometry, shadows, reflection
-// or refraction.
+// Haines' Standard Procedural Databases: the rays that a scene takes, counted against his table. The format's
+// files come with no picture to agree with bit for bit; the number of rays of each kind is what the benchmark
+// compares, and it notices any error in geometry, shadows, reflection or refraction.
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ struct Row {
 void PrintTo(const Row& row, std::ostream* out) { *out << row.file; }
 // "All within about 10 %" is his rule for acceptance; 1 % is ours.
 const Row table[] = {
-    {"balls_s4_c.nff", 263169, 175095, 0, 954368},    {"gears_s4_c.nff", 245086, 304643, 207564, 2246955}, {"mount_s6_c.nff", 173125, 354769, 354769, 412922},
-    {"rings_s7_c.nff", 263169, 315236, 0, 1085002},   {"teapot_s12_c.nff", 161120, 225248, 0, 407656},     {"tetra_s6_c.nff", 49788, 0, 0, 46112},
+    {"balls_s4_c.nff", 263169, 175095, 0, 954368},      {"gears_s4_c.nff", 245086, 304643, 207564, 2246955},
+    {"mount_s6_c.nff", 173125, 354769, 354769, 412922}, {"rings_s7_c.nff", 263169, 315236, 0, 1085002},
+    {"teapot_s12_c.nff", 161120, 225248, 0, 407656},    {"tetra_s6_c.nff", 49788, 0, 0, 46112},
     {"tree_s11_c.nff", 169836, 0, 0, 1097419},
 };
 
@@ -32,7 +33,9 @@ TEST_P(Spd, CountsTheRaysOfHainesTable) {
   if (!data) GTEST_SKIP() << "the SPD files are not here: set LAMBENT_DATA to the folder that holds nff/spd";
   const Row& row = GetParam();
   const auto rays = render(load_scene(*data + "/nff/spd/" + row.file)).stats.rays;
-  const auto within = [](std::uint64_t got, std::uint64_t want) { return std::fabs(double(got) - double(want)) <= 0.01 * double(want); };
+  const auto within = [](std::uint64_t got, std::uint64_t want) {
+    return std::fabs(double(got) - double(want)) <= 0.01 * double(want);
+  };
   EXPECT_EQ(rays.eye, 513u * 513u);
   EXPECT_TRUE(within(rays.eye_hits, row.eye_hits)) << rays.eye_hits << " for " << row.eye_hits;
   EXPECT_TRUE(within(rays.reflection, row.reflection)) << rays.reflection << " for " << row.reflection;

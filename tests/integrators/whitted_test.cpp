@@ -17,41 +17,54 @@ namespace {
 
 using V = Vec3<double>;
 
-Image picture(const std::string& yaml, const RenderOptions& options = {}) { return render(parse_scene(yaml), options).image; }
+Image picture(const std::string& yaml, const RenderOptions& options = {}) {
+  return render(parse_scene(yaml), options).image;
+}
 
 /// The camera ray through the centre of a pixel, by the definition of docs/scene-format.md.
 V pixel_ray(int x, int y, int width, int height, double fov) {
-  const double k = std::tan(fov / 2 * M_PI / 180), u = (x + 0.5 - width / 2.0) / (height / 2.0), v = (height / 2.0 - (y + 0.5)) / (height / 2.0);
+  const double k = std::tan(fov / 2 * M_PI / 180), u = (x + 0.5 - width / 2.0) / (height / 2.0),
+               v = (height / 2.0 - (y + 0.5)) / (height / 2.0);
   return normalize(V{k * u, k * v, -1});  // looking along -z
 }
 
-// ---- one sphere, one light, each model ---------------------------------------------------------------------------------
+// ---- one sphere, one light, each model
+// ---------------------------------------------------------------------------------
 
 struct Expected {
   const char* model;
-  double (*color)(const V& N, const V& L, const V& V_, double r, double R, double ka, double kd, double ks, double n);
+  double (*color)(const V& N, const V& L, const V& V_, double r, double R, double ka, double kd, double ks,
+                  double n);
 };
 double plus(double a) { return a > 0 ? a : 0; }
 
 const Expected every_model[] = {
     // I = Ka Ia + Il Kd (N.L)+
-    {"conventional", [](const V& N, const V& L, const V&, double, double, double ka, double kd, double, double) { return ka + 8 * kd * plus(dot(N, L)); }},
+    {"conventional", [](const V& N, const V& L, const V&, double, double, double ka, double kd, double,
+                        double) { return ka + 8 * kd * plus(dot(N, L)); }},
     // I = Ka Ia + Il Kd (N.L)+ / r^2
-    {"attenuated", [](const V& N, const V& L, const V&, double r, double, double ka, double kd, double, double) { return ka + 8 / (r * r) * kd * plus(dot(N, L)); }},
+    {"attenuated", [](const V& N, const V& L, const V&, double r, double, double ka, double kd, double,
+                      double) { return ka + 8 / (r * r) * kd * plus(dot(N, L)); }},
     // I = Ka Ia / R + Il / r [ Kd (N.L)+ + Ks ((R.V)+)^n ],  R = 2 (N.L) N - L
-    {"phong", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+    {"phong",
+     [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
        const V mirrored = 2 * dot(N, L) * N - L;
-       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(mirrored, E)), n) : 0));
+       return ka / R +
+              8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(mirrored, E)), n) : 0));
      }},
     // the same with (N.H)+, H = (L + V) / |L + V|
-    {"blinn_phong", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+    {"blinn_phong",
+     [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
        const V H = normalize(L + E);
-       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+       return ka / R +
+              8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
      }},
     // the same with H = (L + V) / 2
-    {"blinn_phong_halfway", [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+    {"blinn_phong_halfway",
+     [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
        const V H = 0.5 * (L + E);
-       return ka / R + 8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+       return ka / R +
+              8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
      }},
 };
 
@@ -66,7 +79,8 @@ illumination: {{model: {}}}
 lights: [{{point: {{position: [3, 4, 5], intensity: 8}}}}]
 materials: [{{name: m, ambient: [0.1, 0.02, 0.05], diffuse: [0.8, 0.1, 0.4], specular: [0.5, 0.6, 0.7], shininess: {}}}]
 objects: [{{sphere: {{center: [0.1, 0.2, -0.3], radius: 1.2}}, material: m}}]
-)", expected.model, n));
+)",
+                                              expected.model, n));
       const V center{0.1, 0.2, -0.3}, eye{0, 0, 5}, light{3, 4, 5};
       const double ka[] = {0.1, 0.02, 0.05}, kd[] = {0.8, 0.1, 0.4}, ks[] = {0.5, 0.6, 0.7};
       int on_sphere = 0, lit = 0;
@@ -85,7 +99,8 @@ objects: [{{sphere: {{center: [0.1, 0.2, -0.3], radius: 1.2}}, material: m}}]
           lit += dot(N, L) > 0;
           for (int c = 0; c < 3; ++c) {
             const double want = expected.color(N, L, -d, length(light - P), R, ka[c], kd[c], ks[c], n);
-            EXPECT_NEAR(image.pixel(x, y)[c] / want, 1, 1e-6) << expected.model << " at " << x << ", " << y << " n " << n;
+            EXPECT_NEAR(image.pixel(x, y)[c] / want, 1, 1e-6)
+                << expected.model << " at " << x << ", " << y << " n " << n;
           }
         }
       EXPECT_GT(on_sphere, 500);
@@ -101,11 +116,12 @@ TEST(OneSphereOneLight, EveryModelOfTheRegistryIsAmongThem) {
   }
 }
 
-// ---- distances ---------------------------------------------------------------------------------------------------------
+// ---- distances
+// ---------------------------------------------------------------------------------------------------------
 
 TEST(Distances, RGrowsOverAllBouncesBetweenTwoMirrors) {
-  // Mirrors at z = 0 and z = 4, the eye between them at z = 3, looking at z = 0. Hit k (from 0) lies at R = 3 + 4k:
-  // I = sum over k < depth of rho^k Ka Ia / (3 + 4k).
+  // Mirrors at z = 0 and z = 4, the eye between them at z = 3, looking at z = 0. Hit k (from 0) lies at R = 3
+  // + 4k: I = sum over k < depth of rho^k Ka Ia / (3 + 4k).
   for (int depth : {1, 2, 5, 20}) {
     const Image image = picture(fmt::format(R"(
 lambent: 1
@@ -117,7 +133,8 @@ materials: [{{name: mirror, ambient: [0.9, 0.5, 0.2], diffuse: 0, reflect: [0.5,
 objects:
   - {{plane: {{point: [0, 0, 0], normal: [0, 0, 1]}}, material: mirror}}
   - {{plane: {{point: [0, 0, 4], normal: [0, 0, -1]}}, material: mirror}}
-)", depth));
+)",
+                                            depth));
     const double ka[] = {0.9, 0.5, 0.2}, rho[] = {0.5, 0.8, 0.9};
     for (int c = 0; c < 3; ++c) {
       double want = 0;
@@ -139,11 +156,12 @@ objects: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: m}]
   EXPECT_NEAR(image.pixel(0, 0)[0], 0.3 / 0.5, 1e-7);  // R = 0.25 counts as 0.5
 }
 
-// ---- refraction --------------------------------------------------------------------------------------------------------
+// ---- refraction
+// --------------------------------------------------------------------------------------------------------
 
 TEST(Refraction, AGlassSlabShiftsTheRay) {
-  // A slab of thickness d and index n shifts a ray by d sin(a) (1 - cos a / sqrt(n^2 - sin^2 a)), without turning it.
-  // Behind it a matt wall lit by a lamp nearby says where the ray has gone: I = Kd N.L there.
+  // A slab of thickness d and index n shifts a ray by d sin(a) (1 - cos a / sqrt(n^2 - sin^2 a)), without
+  // turning it. Behind it a matt wall lit by a lamp nearby says where the ray has gone: I = Kd N.L there.
   const double d = 0.5, n = 1.5, a = 40 * M_PI / 180;
   const Image image = picture(fmt::format(R"(
 lambent: 1
@@ -158,7 +176,8 @@ materials:
 objects:
   - {{box: {{min: [-5, -5, 0], max: [5, 5, {}]}}, material: glass}}
   - {{plane: {{point: [0, 0, -1], normal: [0, 0, 1]}}, material: wall}}
-)", 5 * std::sin(a), 5 * std::cos(a), d));
+)",
+                                          5 * std::sin(a), 5 * std::cos(a), d));
   const double shift = d * std::sin(a) * (1 - std::cos(a) / std::sqrt(n * n - std::sin(a) * std::sin(a)));
   // Without glass the ray meets the wall at x = -tan(a); the shift moves it towards +x by shift / cos(a).
   const double x = -std::tan(a) + shift / std::cos(a);
@@ -166,7 +185,8 @@ objects:
   EXPECT_NEAR(image.pixel(0, 0)[0] / want, 1, 1e-6);
 }
 
-/// The eye below the surface of glass, a white floor further down, a blue sky above; looking up at `angle` from the vertical.
+/// The eye below the surface of glass, a white floor further down, a blue sky above; looking up at `angle`
+/// from the vertical.
 Image looking_out(double angle) {
   return picture(fmt::format(R"(
 lambent: 1
@@ -179,7 +199,8 @@ materials:
 objects:
   - {{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}, material: glass}}
   - {{plane: {{point: [0, -2, 0], normal: [0, 1, 0]}}, material: floor}}
-)", std::tan(angle * M_PI / 180)));
+)",
+                             std::tan(angle * M_PI / 180)));
 }
 
 TEST(Refraction, TotalBeyondTheCriticalAngle) {
@@ -205,7 +226,8 @@ objects: [{disc: {center: [0, 0, 0], normal: [0, 0, 1], radius: 1}, material: m}
   for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(image.pixel(0, 0)[c], 0.25f + 1.25f * float(1 << c));
 }
 
-// ---- shadows -----------------------------------------------------------------------------------------------------------
+// ---- shadows
+// -----------------------------------------------------------------------------------------------------------
 
 /// Brightness of the floor below something at height 1, the light at height 3.
 Image shadow_of(const std::string& thing, const std::string& whitted = "") {
@@ -214,7 +236,8 @@ lambent: 1
 camera: {eye: [5, 2, 0], target: [0, 0, 0], fov: 1}
 image: {size: [1, 1]}
 illumination: {model: conventional}
-integrator: {whitted: {)" + whitted + R"(}}
+integrator: {whitted: {)" +
+                 whitted + R"(}}
 lights: [{point: {position: [0, 3, 0]}}]
 materials:
   - {name: floor, ambient: 0, diffuse: 1}
@@ -232,7 +255,8 @@ TEST(Shadows, AreHardAndTintedByWhatTransmits) {
     EXPECT_FLOAT_EQ(image.pixel(0, 0)[1], float(g));
     EXPECT_FLOAT_EQ(image.pixel(0, 0)[2], float(b));
   };
-  const std::string sphere = "  - {sphere: {center: [0, 1, 0], radius: 0.3}, material: ", disc = "  - {disc: {center: [0, 1.5, 0], normal: [0, 1, 0], radius: 0.3}, material: ";
+  const std::string sphere = "  - {sphere: {center: [0, 1, 0], radius: 0.3}, material: ",
+                    disc = "  - {disc: {center: [0, 1.5, 0], normal: [0, 1, 0], radius: 0.3}, material: ";
   expect(shadow_of(""), 1, 1, 1);
   expect(shadow_of(sphere + "opaque}\n"), 0, 0, 0);
   expect(shadow_of(sphere + "opaque}\n", "shadows: false"), 1, 1, 1);
@@ -241,7 +265,8 @@ TEST(Shadows, AreHardAndTintedByWhatTransmits) {
   expect(shadow_of(sphere + "glass}\n" + disc + "dark}\n"), 1, 0, 0);
   expect(shadow_of(sphere + "glass}\n" + disc + "opaque}\n"), 0, 0, 0);
   expect(shadow_of(sphere + "glass}\n", "colored_shadows: false"), 0, 0, 0);
-  expect(shadow_of("  - {disc: {center: [0, 4, 0], normal: [0, 1, 0], radius: 9}, material: opaque}\n"), 1, 1, 1);  // behind the light
+  expect(shadow_of("  - {disc: {center: [0, 4, 0], normal: [0, 1, 0], radius: 9}, material: opaque}\n"), 1, 1,
+         1);  // behind the light
 }
 
 TEST(Shadows, NoRayTowardsALightBehindTheSurface) {
@@ -252,23 +277,27 @@ camera: {{projection: orthographic, eye: [0, 5, 0], target: [0, 0, 0], up: [0, 0
 image: {{size: [8, 8]}}
 lights: [{{point: {{position: [0, {}, 0]}}}}]
 objects: [{{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}}}]
-)", height));
+)",
+                                   height));
   };
   EXPECT_EQ(render(scene(1)).stats.rays.shadow, 64u);
   EXPECT_EQ(render(scene(-1)).stats.rays.shadow, 0u);
 }
 
-// ---- cameras -----------------------------------------------------------------------------------------------------------
+// ---- cameras
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(Cameras, OrthographicSeesHeightAndKeepsSizes) {
-  // A disc of radius 0.25 in a view of height 1 and 100 pixels: its area is pi 25^2 pixels, wherever it stands.
+  // A disc of radius 0.25 in a view of height 1 and 100 pixels: its area is pi 25^2 pixels, wherever it
+  // stands.
   for (double z : {0.0, -7.0}) {
     const auto result = render(parse_scene(fmt::format(R"(
 lambent: 1
 camera: {{projection: orthographic, eye: [0, 0, 3], target: [0, 0, 0], height: 1}}
 image: {{size: [100, 100]}}
 objects: [{{disc: {{center: [0, 0, {}], normal: [0, 0, 1], radius: 0.25}}}}]
-)", z)));
+)",
+                                                       z)));
     EXPECT_NEAR(double(result.stats.rays.eye_hits), M_PI * 25 * 25, 30);
   }
 }
@@ -291,7 +320,8 @@ objects:
   EXPECT_EQ(image.pixel(1, 2)[0], 0);
 }
 
-// ---- the same bits -----------------------------------------------------------------------------------------------------
+// ---- the same bits
+// -----------------------------------------------------------------------------------------------------
 
 const char* everything = R"(
 lambent: 1
@@ -320,11 +350,14 @@ objects:
 
 TEST(SameBits, WhateverTheThreadsTilesAndInstructionSet) {
   const ScenePtr scene = parse_scene(everything);
-  const RenderResult reference = render(scene, {.threads = 1, .tile_size = 32, .isa = "baseline", .progress = {}});
+  const RenderResult reference =
+      render(scene, {.threads = 1, .tile_size = 32, .isa = "baseline", .progress = {}});
   const auto expect_same = [&](const RenderOptions& options) {
     const RenderResult result = render(scene, options);
     ASSERT_EQ(result.image.data.size(), reference.image.data.size());
-    EXPECT_EQ(std::memcmp(result.image.data.data(), reference.image.data.data(), result.image.data.size() * sizeof(float)), 0)
+    EXPECT_EQ(std::memcmp(result.image.data.data(), reference.image.data.data(),
+                          result.image.data.size() * sizeof(float)),
+              0)
         << options.threads << " threads, tiles of " << options.tile_size << ", " << result.stats.isa;
     EXPECT_EQ(result.metadata, reference.metadata);
     EXPECT_EQ(result.stats.rays.shadow, reference.stats.rays.shadow);
@@ -336,7 +369,8 @@ TEST(SameBits, WhateverTheThreadsTilesAndInstructionSet) {
 }
 
 TEST(SameBits, APixelDoesNotDependOnTheOthers) {
-  // The same rays in a picture of another width would differ; but what a pixel shows does not depend on who is beside it in a packet.
+  // The same rays in a picture of another width would differ; but what a pixel shows does not depend on who
+  // is beside it in a packet.
   const ScenePtr scene = parse_scene(everything);
   const Image whole = render(scene).image;
   const Image tiny = render(scene, {1, 1, "", {}}).image;  // one pixel at a time
@@ -345,7 +379,9 @@ TEST(SameBits, APixelDoesNotDependOnTheOthers) {
 
 TEST(Cancelling, StopsAndSaysSo) {
   int calls = 0;
-  const RenderResult result = render(parse_scene(everything), {.threads = 2, .tile_size = 8, .isa = "", .progress = [&](double) { return ++calls < 3; }});
+  const RenderResult result =
+      render(parse_scene(everything),
+             {.threads = 2, .tile_size = 8, .isa = "", .progress = [&](double) { return ++calls < 3; }});
   EXPECT_TRUE(result.cancelled);
   EXPECT_EQ(calls, 3);
 }

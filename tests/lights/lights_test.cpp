@@ -52,7 +52,8 @@ TEST(SpotLight, FadesBetweenTheInnerAndTheOuterCone) {
 
 TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
   using P = Pack<double, native_float_lanes / 2>;
-  const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2}, DirectionalLight{{1, -2, 0.5}, {{1, 1, 1}}, 1},
+  const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2},
+                             DirectionalLight{{1, -2, 0.5}, {{1, 1, 1}}, 1},
                              SpotLight{{0, 3, 0}, {0.2, 0, 0.1}, {{1, 1, 1}}, 2, 70, 0.4, 3}};
   static_assert(std::size(lights) == std::variant_size_v<AnyLight> - 1, "a light is missing in this test");
   std::mt19937 random(4);
@@ -60,14 +61,16 @@ TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
   for (const AnyLight& any : lights)
     for (int i = 0; i < 1000; ++i) {
       Vec3<P> p;
-      for (int k = 0; k < lanes_of<P>; ++k) set_lane(p.x, k, u(random)), set_lane(p.y, k, u(random)), set_lane(p.z, k, u(random));
+      for (int k = 0; k < lanes_of<P>; ++k)
+        set_lane(p.x, k, u(random)), set_lane(p.y, k, u(random)), set_lane(p.z, k, u(random));
       with_light(any, [&](const auto& light) {
         const auto together = sample(light, p, P(0.5), P(0.5));
         for (int k = 0; k < lanes_of<P>; ++k) {
           const auto alone = sample(light, Vec3<double>{lane(p.x, k), lane(p.y, k), lane(p.z, k)}, 0.5, 0.5);
           EXPECT_EQ(to_bits(lane(together.L.x, k)), to_bits(alone.L.x));
           EXPECT_EQ(to_bits(lane(together.r, k)), to_bits(alone.r));
-          for (int c = 0; c < color_channels; ++c) EXPECT_EQ(to_bits(lane(together.I[c], k)), to_bits(alone.I[c]));
+          for (int c = 0; c < color_channels; ++c)
+            EXPECT_EQ(to_bits(lane(together.I[c], k)), to_bits(alone.I[c]));
         }
       });
     }

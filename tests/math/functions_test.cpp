@@ -39,7 +39,7 @@ TEST(Functions, PowerOfFloatIsRightToOneUlp) {
 }
 
 TEST(Functions, PowerAtTheEdges) {
-  EXPECT_EQ(pow(0.0, 0.0), 1);   // a highlight with shininess 0 is everywhere
+  EXPECT_EQ(pow(0.0, 0.0), 1);  // a highlight with shininess 0 is everywhere
   EXPECT_EQ(pow(0.0, 5.0), 0);
   EXPECT_EQ(pow(1.0, 1e6), 1);
   EXPECT_EQ(pow(0.5, 1e6), 0);
@@ -54,7 +54,8 @@ TEST(Functions, ALaneOfAPacketHasTheBitsOfTheNumber) {
   std::uniform_real_distribution<double> base(-0.1, 1.1), power(0, 200), angle(-1000, 1000);
   for (int i = 0; i < 20000; ++i) {
     DoublePack x, y, a;
-    for (int k = 0; k < lanes; ++k) set_lane(x, k, base(random)), set_lane(y, k, power(random)), set_lane(a, k, angle(random));
+    for (int k = 0; k < lanes; ++k)
+      set_lane(x, k, base(random)), set_lane(y, k, power(random)), set_lane(a, k, angle(random));
     const DoublePack p = pow(x, y);
     const auto turn = sincos_degrees(a);
     for (int k = 0; k < lanes; ++k) {
@@ -81,7 +82,8 @@ TEST(Functions, SineAndCosine) {
 }
 
 TEST(Transform, InverseUndoes) {
-  const Transform t = translation({1, 2, 3}) * rotation(normalize(Vec3<double>{1, 2, -1}), 37) * scaling({2, 3, -0.5});
+  const Transform t =
+      translation({1, 2, 3}) * rotation(normalize(Vec3<double>{1, 2, -1}), 37) * scaling({2, 3, -0.5});
   const Vec3<double> p{0.3, -4, 2}, back = transform_point(inverse(t), transform_point(t, p));
   EXPECT_NEAR(length(back - p), 0, 1e-14);
   EXPECT_NEAR(determinant(t), 2 * 3 * -0.5, 1e-14);  // rotations keep volumes
@@ -95,7 +97,8 @@ TEST(Transform, RotationIsRightHanded) {
 
 TEST(Transform, NormalsStayAcross) {
   const Transform t = rotation({0, 1, 0}, 20) * scaling({1, 4, 2});
-  const Vec3<double> a = normalize(Vec3<double>{1, 2, 3}), b = normalize(cross(a, Vec3<double>{0, 1, 0}));  // b lies in the plane across a
+  const Vec3<double> a = normalize(Vec3<double>{1, 2, 3}),
+                     b = normalize(cross(a, Vec3<double>{0, 1, 0}));  // b lies in the plane across a
   EXPECT_NEAR(dot(transform_normal(inverse(t), a), transform_vector(t, b)), 0, 1e-15);
 }
 

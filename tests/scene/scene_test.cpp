@@ -21,8 +21,7 @@ Transform any_transform() {
 }
 
 /// The largest coordinate along each world axis that any of `points` has.
-template <class Points>
-void expect_tight(const Bounds& box, const Points& points, double tolerance) {
+template <class Points> void expect_tight(const Bounds& box, const Points& points, double tolerance) {
   Bounds seen;
   for (const Point& p : points) seen.add(p);
   RC_ASSERT(distance(box.lower, seen.lower) < tolerance);

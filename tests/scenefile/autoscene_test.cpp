@@ -82,6 +82,20 @@ TEST(Autoscene, SeesAllOfTheModelWithAMargin) {
   }));
 }
 
+TEST(Autoscene, FramesForTheSizeAskedFor) {
+  // A wide plate in a tall picture: its ends must not be cut off.
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("plate.obj"), "v -5 0 0\nv 5 0 0\nv 5 1 0\nv -5 1 0\nf 1 2 3 4\n");
+  const ScenePtr scene = load_scene(folder.file("plate.obj"), {.set = {{"image.size", "[200, 400]"}}});
+  const Camera& camera = scene->camera;
+  const Vec3<double> forward = normalize(camera.target - camera.eye),
+                     right = normalize(cross(forward, camera.up));
+  for (const double x : {-5.0, 5.0}) {
+    const Vec3<double> way = Vec3<double>{x, 0, 0} - camera.eye;
+    EXPECT_LT(std::abs(dot(way, right) / dot(way, forward)), 0.5 * std::tan(camera.fov * M_PI / 360));
+  }
+}
+
 TEST(Autoscene, StandsOnAFloorSeenFromAbove) {
   EXPECT_TRUE(rc::check([] {
     const Box box = random_box();
@@ -198,6 +212,21 @@ TEST(Autoscene, RefusesModelsOutOfReach) {
                  "folder/huge.obj: error: the model is too large, or too far from the origin, for a camera "
                  "and lights around it\n"
                  "    hint: choose a larger unit of length: coordinates reach up to 10000000000");
+  }
+}
+
+TEST(Autoscene, ReadsBackWhateverItsSize) {
+  // Up to where it is refused, the scene has nothing out of reach: neither camera nor lights nor floor.
+  for (double size = 1; size < 1e10; size *= 1.5) {
+    const Model model = box_model({-size, -size, -size}, {size, size, size});
+    std::string text;
+    try {
+      text = scene_text(model, "folder/box.obj");
+    } catch (const InputError&) {
+      EXPECT_GT(size, 5e7);
+      continue;
+    }
+    EXPECT_TRUE(validate(scene_of(model)).empty()) << text;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// attenuated: Lambert's cosine law, with lights that fade with the square of the distance: the lecture's model 2.
+// attenuated: Lambert's cosine law, with lights that fade with the square of the distance: the lecture's
+// model 2.
 
 #include "illumination/models/conventional.h"
 

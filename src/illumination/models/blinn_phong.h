@@ -16,8 +16,7 @@ struct BlinnPhong {
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };
-  template <class F, class C>
-  static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
+  template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const Vec3<F> sum = light.L + s.V;
     const F square = dot(sum, sum);
     const F nh = select(square > F(0), dot(s.N, sum) / sqrt(square), F(0));

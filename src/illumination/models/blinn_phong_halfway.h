@@ -6,7 +6,8 @@
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
-/// |H| = cos of half the angle between L and V, so the highlight is dimmer than blinn_phong's, by that cosine to the n.
+/// |H| = cos of half the angle between L and V, so the highlight is dimmer than blinn_phong's, by that cosine
+/// to the n.
 struct BlinnPhongHalfway {
   static constexpr ModelInfo info{
       .name = "blinn_phong_halfway",
@@ -16,8 +17,7 @@ struct BlinnPhongHalfway {
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };
-  template <class F, class C>
-  static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
+  template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const Vec3<F> H = F(0.5) * (light.L + s.V);
     const F highlight = pow(max(dot(s.N, H), F(0)), s.n);
     return {lambert(s, light), select(dot(s.N, light.L) > F(0), highlight, F(0)) * (s.ks * light.I)};

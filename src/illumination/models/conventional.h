@@ -7,8 +7,7 @@ namespace lambent {
 inline namespace LAMBENT_ISA {
 
 /// Lambert 1760: the light that a matt surface sends back is proportional to the cosine between N and L.
-template <class F, class C>
-C lambert(const Surface<F, C>& s, const Arriving<F, C>& light) {
+template <class F, class C> C lambert(const Surface<F, C>& s, const Arriving<F, C>& light) {
   return max(dot(s.N, light.L), F(0)) * (s.kd * light.I);
 }
 
@@ -19,8 +18,7 @@ struct Conventional {
       .equation = "Il Kd (N.L)+",
       .source = "Lambert, Photometria, 1760; the lecture's model 1",
   };
-  template <class F, class C>
-  static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
+  template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     return {lambert(s, light), C{}};
   }
 };

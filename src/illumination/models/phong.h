@@ -12,12 +12,13 @@ struct Phong {
       .name = "phong",
       .title = "the lecture's equation: a highlight around the mirrored light",
       .equation = "Il / r [ Kd (N.L)+ + Ks ((R.V)+)^n ],  R = 2 (N.L) N - L",
-      .source = "Bui Tuong Phong, Illumination for computer generated pictures, CACM 18(6), 1975; the lecture's model",
+      .source =
+          "Bui Tuong Phong, Illumination for computer generated pictures, CACM 18(6), 1975; the lecture's "
+          "model",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };
-  template <class F, class C>
-  static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
+  template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const Vec3<F> R = reflect(light.L, s.N);
     const F highlight = pow(max(dot(R, s.V), F(0)), s.n);
     return {lambert(s, light), select(dot(s.N, light.L) > F(0), highlight, F(0)) * (s.ks * light.I)};
