@@ -142,7 +142,6 @@ class Builder {
   void place(const Mesh& mesh, const Transform& t, const Transform& inverse_t, double, Geometry& g) {
     g.kind = PrimitiveKind::triangle;
     g.triangles = mesh.triangles.data();
-    g.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
     g.flipped = determinant(t) < 0;
     g.vertices = mesh.vertices.data();
     g.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();

@@ -85,7 +85,6 @@ struct TileWork {
   }
 
   // ---- eye rays
-  // ------------------------------------------------------------------------------------------------------
 
   void start_pixels() {
     if (scratch.pixels.capacity < pixel_count()) Scratch::grow(scratch.pixels, pixel_count());
@@ -114,7 +113,6 @@ struct TileWork {
   }
 
   // ---- where rays end
-  // ------------------------------------------------------------------------------------------------
 
   /// Eye rays lie close together and go through the tree in packets; scattered ones do not, and go one by
   /// one.
@@ -192,7 +190,6 @@ struct TileWork {
   }
 
   // ---- lights and shadows
-  // --------------------------------------------------------------------------------------------
 
   /// Decides for each hit and light how much of the light passes. No shadow ray is thrown where the light is
   /// behind the surface (N.L <= 0) or dark in this direction.
@@ -228,11 +225,11 @@ struct TileWork {
   /// Shadow rays that wait for company. The lanes beyond `count` are masked out.
   struct ShadowPacket {
     int count = 0;
-    std::uint32_t hit[query_lanes], entry[query_lanes];
+    std::uint32_t entry[query_lanes];
     Vec3<QueryPack> o, d;
     QueryPack t_far;
     void add(std::uint32_t h, std::uint32_t e, const Vec3<double>& L, double r, const HitQueue& hits) {
-      hit[count] = h, entry[count] = e;
+      entry[count] = e;
       set_lane(o.x, count, float(hits.sx[h])), set_lane(o.y, count, float(hits.sy[h])),
           set_lane(o.z, count, float(hits.sz[h]));
       set_lane(d.x, count, float(L.x)), set_lane(d.y, count, float(L.y)), set_lane(d.z, count, float(L.z));
@@ -280,7 +277,6 @@ struct TileWork {
   }
 
   // ---- the equation
-  // --------------------------------------------------------------------------------------------------
 
   void shade() {
     const HitQueue& hits = scratch.hits;
@@ -358,7 +354,6 @@ struct TileWork {
   }
 
   // ---- mirror rays and refracted rays
-  // --------------------------------------------------------------------------------
 
   void follow() {
     const HitQueue& hits = scratch.hits;
@@ -420,7 +415,6 @@ struct TileWork {
   }
 
   // ---- the film
-  // ------------------------------------------------------------------------------------------------------
 
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {

@@ -165,7 +165,6 @@ inline constexpr Parameter<Material> parameters_of<Material>[] = {
 };
 
 // ---- shapes: arrays of primitives of one kind
-// -------------------------------------------------------------------------
 
 struct Sphere {
   Vec3<double> center{0, 0, 0};

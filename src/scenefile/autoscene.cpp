@@ -5,58 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <type_traits>
 
 #include <fmt/format.h>
 
-#include "scenefile/format.h"
-#include "scenefile/names.h"
+#include "scenefile/yaml_text.h"
 
 namespace lambent {
 namespace {
-
-// ---- YAML
-
-/// A text in double quotes, whatever is in it.
-std::string yaml_quoted(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      result += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
-    else result += c;
-  }
-  return result + '"';
-}
-
-/// Any value that a parameter may have, as one would write it.
-template <class T> std::string value_text(const T& value) {
-  if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
-  else if constexpr (std::is_same_v<T, int>) return fmt::format("{}", value);
-  else return text_of(value);
-}
-
-/// "{eye: [0, 0, 5], fov: 40}": the parameters that are required or differ from their defaults.
-template <class S> std::string settings_text(const S& settings) {
-  static constexpr S defaults{};
-  std::string result;
-  for (const Parameter<S>& parameter : parameters_of<S>)
-    std::visit(
-        [&](auto member) {
-          if (!parameter.required && settings.*member == defaults.*member) return;
-          result += fmt::format("{}{}: {}", result.empty() ? "" : ", ", parameter.name,
-                                value_text(settings.*member));
-        },
-        parameter.member);
-  return "{" + result + "}";
-}
-
-std::string light_text(const Light& light) {
-  return with_light(light.light, [&](const auto& one) {
-    return fmt::format("{{name: {}, {}: {}}}", yaml_quoted(light.name),
-                       std::decay_t<decltype(one)>::info.name, settings_text(one));
-  });
-}
 
 // ---- what suits the model
 
@@ -184,7 +139,7 @@ std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& 
     PointLight light;
     light.position = rounded(ball.center + distance * direction(frame, lamp.azimuth, lamp.elevation));
     light.intensity = rounded(lamp.brightness * distance);
-    fmt::format_to(out, "  - {}\n", light_text({lamp.name, {}, light}));
+    fmt::format_to(out, "  - {}\n", light_text({lamp.name, {}, light}, Wanted::what_differs));
   }
   return text;
 }
@@ -205,7 +160,7 @@ std::string own_lights_text(const std::vector<Light>& lights) {
   fmt::format_to(out,
                  "integrator: {{whitted: {{max_depth: 5, colored_shadows: false, trace_black_rays: "
                  "true}}}}\n\nlights:\n");
-  for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light));
+  for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light, Wanted::what_differs));
   return text;
 }
 
@@ -251,10 +206,10 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
   fmt::format_to(out, "# The model {} as `lambent render` shows it: a start for a scene of one's own.\n",
                  file);
   fmt::format_to(out, "lambent: 1\n\n");
-  fmt::format_to(out, "# {}\ncamera: {}\n",
+  fmt::format_to(out, "# {}\ncamera: {{{}}}\n",
                  model.camera ? "The file's own view."
                               : "From three quarters and a little above; all of the model is in the picture.",
-                 settings_text(camera));
+                 settings_text(camera, Wanted::what_differs));
   fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width,
                  image.height, image.samples, text_of(image.pattern), text_of(image.encoding));
   if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
@@ -271,8 +226,8 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
                      {0, 1, 0},
                      rounded(floor_radius * ball.radius)};
     const std::string color = text_of(grey(floor_grey));
-    fmt::format_to(out, "  - {{name: floor, disc: {}, material: {{ambient: {}, diffuse: {}}}}}\n",
-                   settings_text(floor), color, color);
+    fmt::format_to(out, "  - {{name: floor, disc: {{{}}}, material: {{ambient: {}, diffuse: {}}}}}\n",
+                   settings_text(floor, Wanted::what_differs), color, color);
   }
   return text;
 }

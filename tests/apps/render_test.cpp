@@ -140,7 +140,6 @@ TEST_F(Render, AModelIsFramedAndLitByItself) {
 }
 
 // ---- what goes wrong
-// ------------------------------------------------------------------------------------------
 
 TEST_F(Render, ABrokenSceneTouchesNoFile) {
   write_text(folder.file("broken.yaml"), small_scene + "  - {spere: {radius: 1}}\nbackgruond: 3\n");
@@ -226,7 +225,6 @@ TEST_F(Render, AnInterruptStopsItAndTouchesNoFile) {
 }
 
 // ---- on a terminal
-// --------------------------------------------------------------------------------------------
 
 TEST_F(Render, TheBarFitsTheTerminalAndGoesAway) {
   for (const int width : {80, 30, 8}) {
@@ -259,7 +257,6 @@ TEST_F(Render, ColorsOnlyWhereTheyAreWelcome) {
 }
 
 // ---- streams
-// --------------------------------------------------------------------------------------------------
 
 TEST_F(Render, ClosedStreamsNeverLandInThePicture) {
   const ProgramResult open = run_shell("$LAMBENT render scene.yaml -o a.png", folder.path());

@@ -129,7 +129,6 @@ TEST(Attenuation, ClosedForms) {
 }
 
 // ---- what holds for every model of models.def: a new one is tested here without a word
-// ---------------------------------
 
 Vec3<double> random_direction(std::mt19937& random) {
   std::normal_distribution<double> d;
@@ -251,7 +250,6 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
 }
 
 // ---- a model of somebody else's
-// ----------------------------------------------------------------------------------------
 
 /// CONTRIBUTING.md's example, as it would stand in a file of its own.
 struct Minnaert {

@@ -29,7 +29,6 @@ V pixel_ray(int x, int y, int width, int height, double fov) {
 }
 
 // ---- one sphere, one light, each model
-// ---------------------------------------------------------------------------------
 
 struct Expected {
   const char* model;
@@ -117,7 +116,6 @@ TEST(OneSphereOneLight, EveryModelOfTheRegistryIsAmongThem) {
 }
 
 // ---- distances
-// ---------------------------------------------------------------------------------------------------------
 
 TEST(Distances, RGrowsOverAllBouncesBetweenTwoMirrors) {
   // Mirrors at z = 0 and z = 4, the eye between them at z = 3, looking at z = 0. Hit k (from 0) lies at R = 3
@@ -157,7 +155,6 @@ objects: [{plane: {point: [0, 0, 0], normal: [0, 0, 1]}, material: m}]
 }
 
 // ---- refraction
-// --------------------------------------------------------------------------------------------------------
 
 TEST(Refraction, AGlassSlabShiftsTheRay) {
   // A slab of thickness d and index n shifts a ray by d sin(a) (1 - cos a / sqrt(n^2 - sin^2 a)), without
@@ -227,7 +224,6 @@ objects: [{disc: {center: [0, 0, 0], normal: [0, 0, 1], radius: 1}, material: m}
 }
 
 // ---- shadows
-// -----------------------------------------------------------------------------------------------------------
 
 /// Brightness of the floor below something at height 1, the light at height 3.
 Image shadow_of(const std::string& thing, const std::string& whitted = "") {
@@ -285,7 +281,6 @@ objects: [{{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}}}]
 }
 
 // ---- cameras
-// -----------------------------------------------------------------------------------------------------------
 
 TEST(Cameras, OrthographicSeesHeightAndKeepsSizes) {
   // A disc of radius 0.25 in a view of height 1 and 100 pixels: its area is pi 25^2 pixels, wherever it
@@ -321,7 +316,6 @@ objects:
 }
 
 // ---- the same bits
-// -----------------------------------------------------------------------------------------------------
 
 const char* everything = R"(
 lambent: 1

@@ -1,0 +1,23 @@
+#include "scenefile/yaml_text.h"
+
+namespace lambent {
+
+std::string yaml_quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+      result += fmt::format("\\x{:02X}", static_cast<unsigned char>(c));
+    else result += c;
+  }
+  return result + '"';
+}
+
+std::string light_text(const Light& light, Wanted wanted) {
+  return with_light(light.light, [&](const auto& one) {
+    return fmt::format("{{name: {}, {}: {{{}}}}}", yaml_quoted(light.name),
+                       std::decay_t<decltype(one)>::info.name, settings_text(one, wanted));
+  });
+}
+
+}  // namespace lambent
