@@ -52,11 +52,12 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   Clock clock;
   const auto prepared = prepare(*scene);
   const double build = clock.lap();
+  Film film(scene->image);
   const TileRun run =
-      render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), options.progress);
+      render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), film, options.progress);
 
   RenderResult result;
-  result.image = develop(prepared->film, scene->image);
+  result.image = develop(std::move(film), scene->image);
   result.metadata = settings_metadata(*scene);
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;

@@ -8,11 +8,24 @@
 #include <vector>
 
 namespace lambent {
+namespace {
 
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size,
+/// The pixels of a tile in squares of 4 by 4: the rays of a packet then lie close together.
+void list_pixels(int x0, int y0, int x1, int y1, std::vector<Pixel>& pixels) {
+  constexpr int square = 4;
+  pixels.clear();
+  for (int y = y0; y < y1; y += square)
+    for (int x = x0; x < x1; x += square)
+      for (int j = y; j < std::min(y + square, y1); ++j)
+        for (int i = x; i < std::min(x + square, x1); ++i) pixels.push_back({i, j});
+}
+
+}  // namespace
+
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, Film& film,
                      const std::function<bool(double)>& progress) {
-  const std::int64_t columns = (frame.film_width + tile_size - 1) / tile_size,
-                     rows = (frame.film_height + tile_size - 1) / tile_size;
+  const std::int64_t columns = (film.width + tile_size - 1) / tile_size,
+                     rows = (film.height + tile_size - 1) / tile_size;
   const std::int64_t tiles = columns * rows;
   std::atomic<std::int64_t> next{0};
   std::atomic<bool> stop{false};
@@ -24,13 +37,20 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int 
   const auto work = [&] {
     try {
       Scratch scratch;
+      std::vector<Pixel> pixels;
+      std::vector<double> sums;
       RayCounts counts;
       for (std::int64_t i; !stop && (i = next++) < tiles;) {
         const int x = int(i % columns) * tile_size, y = int(i / columns) * tile_size;
-        kernel.render_tile(
-            frame,
-            {x, y, std::min(x + tile_size, frame.film_width), std::min(y + tile_size, frame.film_height)},
-            scratch, counts);
+        list_pixels(x, y, std::min(x + tile_size, film.width), std::min(y + tile_size, film.height), pixels);
+        sums.assign(pixels.size() * color_channels, 0);
+        kernel.render(frame, {pixels.data(), std::uint32_t(pixels.size()), 0, frame.samples, sums.data()},
+                      scratch, counts);
+        for (std::size_t p = 0; p < pixels.size(); ++p) {
+          float* to = &film.colors[(std::size_t(pixels[p].y) * film.width + pixels[p].x) * color_channels];
+          for (int c = 0; c < color_channels; ++c)
+            to[c] = float(sums[p * color_channels + c] / frame.samples);
+        }
         if (!progress) continue;
         const std::lock_guard lock(mutex);
         if (!stop && !progress(double(++done) / double(tiles))) stop = run.cancelled = true;

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "film/film.h"
 #include "integrators/frame.h"
 
 namespace lambent {
@@ -10,9 +11,9 @@ struct TileRun {
   bool cancelled = false;
 };
 
-/// Renders every tile of the frame with `threads` threads. Which thread takes which tile is chance, and does
+/// Renders every tile of the film with `threads` threads. Which thread takes which tile is chance, and does
 /// not matter: a tile depends on the frame alone. `progress` as in RenderOptions.
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size,
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, Film& film,
                      const std::function<bool(double)>& progress);
 
 }  // namespace lambent

@@ -23,6 +23,11 @@ inline namespace LAMBENT_ISA {
 
 inline constexpr float unit_roundoff = 0x1p-24f;
 
+template <class F> Vec3<F> spread(const Vec3<float>& v) { return {F(v.x), F(v.y), F(v.z)}; }
+template <class F> Vec3<F> spread(const Vec3<double>& v) {
+  return {F(float(v.x)), F(float(v.y)), F(float(v.z))};
+}
+
 /// The ray in the float arithmetic of the queries. |d| is 1 up to rounding (or the scale of an instance).
 /// With it stands what the triangle test wants: the axis along which the ray moves most, and the shear that
 /// lays the ray along that axis.
@@ -45,6 +50,16 @@ template <class F> struct QueryRay {
     shear_x = p.x * scale;
     shear_y = p.y * scale;
   }
+  /// The same ray in every lane.
+  explicit QueryRay(const QueryRay<float>& one) requires(lanes_of<F> > 1)
+      : o(spread<F>(one.o)),
+        d(spread<F>(one.d)),
+        along_x(one.along_x),
+        along_y(one.along_y),
+        axis(one.axis),
+        shear_x(one.shear_x),
+        shear_y(one.shear_y),
+        scale(one.scale) {}
   /// v with its axes turned (x to y to z to x) so that z is the one the ray moves along most.
   Vec3<F> permute(const Vec3<F>& v) const {
     if (axis == 2) return v;
@@ -61,51 +76,50 @@ template <class F> struct Meeting {
   MaskOf<F> hit;
 };
 
-template <class F> Vec3<F> spread(const Vec3<float>& v) { return {F(v.x), F(v.y), F(v.z)}; }
-template <class F> Vec3<F> spread(const Vec3<double>& v) {
-  return {F(float(v.x)), F(float(v.y)), F(float(v.z))};
-}
+/// a.x b.y - a.y b.x, with the right sign or zero: rounding each product keeps their order.
+template <class F> F edge(const Vec3<F>& a, const Vec3<F>& b) { return a.x * b.y - a.y * b.x; }
 
-/// a.x b.y - a.y b.x, its sign exact: rounding each product keeps their order, so the difference is right or
-/// zero, and where it is zero it is taken again in double, which holds products of floats exactly.
-template <class F> F edge(const Vec3<F>& a, const Vec3<F>& b) {
-  F result = a.x * b.y - a.y * b.x;
-  if (any(result == F(0.f)))
-    for (int i = 0; i < lanes_of<F>; ++i)
-      if (lane(result, i) == 0)
-        set_lane(
-            result, i,
-            float(double(lane(a.x, i)) * double(lane(b.y, i)) - double(lane(a.y, i)) * double(lane(b.x, i))));
-  return result;
+/// Where `edge` has found zero it is taken again in double, which holds products of floats exactly.
+template <class F> F exact_edge(F found, const Vec3<F>& a, const Vec3<F>& b) {
+  for (int i = 0; i < lanes_of<F>; ++i)
+    if (lane(found, i) == 0)
+      set_lane(
+          found, i,
+          float(double(lane(a.x, i)) * double(lane(b.y, i)) - double(lane(a.y, i)) * double(lane(b.x, i))));
+  return found;
 }
 
 /// Triangle p0 p1 p2, both sides: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2(1),
 /// 2013. Each corner is laid into the plane across the ray, the same whatever triangle it belongs to, and
 /// what the edges span there with the ray has an exact sign: a ray cannot pass between two triangles, nor
-/// through their common corner.
+/// through their common corner. One triangle for all rays of a packet, or one for each.
 template <class F>
-Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<float>& p0, const Vec3<float>& p1,
-                         const Vec3<float>& p2) {
-  const Vec3<F> v0 = spread<F>(p0) - ray.o;
-  Vec3<F> a = ray.permute(v0), b = ray.permute(spread<F>(p1) - ray.o), c = ray.permute(spread<F>(p2) - ray.o);
+Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F>& p1, const Vec3<F>& p2) {
+  const Vec3<F> v0 = p0 - ray.o;
+  Vec3<F> a = ray.permute(v0), b = ray.permute(p1 - ray.o), c = ray.permute(p2 - ray.o);
   a.x = a.x - ray.shear_x * a.z, a.y = a.y - ray.shear_y * a.z;
   b.x = b.x - ray.shear_x * b.z, b.y = b.y - ray.shear_y * b.z;
   c.x = c.x - ray.shear_x * c.z, c.y = c.y - ray.shear_y * c.z;
-  const F U = edge(b, c), V = edge(c, a), W = edge(a, b), zero(0.f);
-  MaskOf<F> hit = either(min(min(U, V), W) >= zero, max(max(U, V), W) <= zero);
+  const F zero(0.f);
+  F U = edge(b, c), V = edge(c, a), W = edge(a, b);
+  const auto inside = [&] { return either(min(min(U, V), W) >= zero, max(max(U, V), W) <= zero); };
+  MaskOf<F> hit = inside();  // and some more, as a zero passes for either sign
   if (!any(hit)) return {zero, hit};
+  if (any(both(hit, either(either(U == zero, V == zero), W == zero)))) {
+    U = exact_edge(U, b, c), V = exact_edge(V, c, a), W = exact_edge(W, a, b);
+    hit = inside();
+  }
   const F area = U + V + W;
   const F t = (U * a.z + V * b.z + W * c.z) / area * ray.scale;
 
   // On which side of the plane does the ray start? n is off by 3u in each product, v0 by u, the dot product
   // by 3u more: the error is at most 8u of the sum of the absolute products. n.d has the sign of area /
   // scale.
-  const Vec3<float> e1 = p1 - p0, e2 = p2 - p0, n = cross(e1, e2);
-  const F height = dot(v0, spread<F>(n));
-  const Vec3<float> size{abs(e1.y * e2.z) + abs(e1.z * e2.y), abs(e1.z * e2.x) + abs(e1.x * e2.z),
-                         abs(e1.x * e2.y) + abs(e1.y * e2.x)};
-  const F bound =
-      F(8 * unit_roundoff) * (abs(v0.x) * F(size.x) + abs(v0.y) * F(size.y) + abs(v0.z) * F(size.z));
+  const Vec3<F> e1 = p1 - p0, e2 = p2 - p0, n = cross(e1, e2);
+  const F height = dot(v0, n);
+  const Vec3<F> size{abs(e1.y * e2.z) + abs(e1.z * e2.y), abs(e1.z * e2.x) + abs(e1.x * e2.z),
+                     abs(e1.x * e2.y) + abs(e1.y * e2.x)};
+  const F bound = F(8 * unit_roundoff) * (abs(v0.x) * size.x + abs(v0.y) * size.y + abs(v0.z) * size.z);
   const MaskOf<F> ahead =
       select(either(both(area > zero, ray.scale > zero), both(area < zero, ray.scale < zero)), height,
              -height) > bound;
@@ -189,13 +203,18 @@ Meeting<F> meet_disc(const QueryRay<F>& ray, const Vec3<F>& center, const Vec3<F
   return m;
 }
 
+/// The three vertices of a triangle.
+inline const std::uint32_t* corners(const Geometry& g, std::int32_t triangle) {
+  return reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(triangle);
+}
+
 /// Any primitive but an instance.
 template <class F> Meeting<F> meet(const Geometry& g, std::int32_t primitive, const QueryRay<F>& ray) {
   switch (g.kind) {
     case PrimitiveKind::triangle: {
-      const std::uint32_t* v =
-          reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(primitive);
-      return meet_triangle(ray, g.vertices[v[0]], g.vertices[v[1]], g.vertices[v[2]]);
+      const std::uint32_t* v = corners(g, primitive);
+      return meet_triangle(ray, spread<F>(g.vertices[v[0]]), spread<F>(g.vertices[v[1]]),
+                           spread<F>(g.vertices[v[2]]));
     }
     case PrimitiveKind::sphere: {
       const Sphere& s = g.spheres[primitive];

@@ -19,121 +19,165 @@
 // and in an instance both, in its own space and in the world.
 
 #include "accel/traverse.h"
+#include "math/transform.h"
 
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
-struct SurfacePoint {
-  Vec3<double> P;
-  Vec3<double> N;   ///< Unit shading normal, on Ng's side.
-  Vec3<double> Ng;  ///< Unit geometric normal, towards the outside: a mesh's counter-clockwise side.
-  Vec3<double>
-      lift;  ///< From P to the smooth surface that the vertex normals suggest; zero where there are none.
-  double t;  ///< Distance along the ray.
-  double offset;  ///< Scene units.
-  std::uint32_t material;
+/// What a hit is, seen closely. F: a double, or a packet of them.
+template <class F> struct SurfacePoint {
+  Vec3<F> P;
+  Vec3<F> N;     ///< Unit shading normal, on Ng's side.
+  Vec3<F> Ng;    ///< Unit geometric normal, towards the outside: a mesh's counter-clockwise side.
+  Vec3<F> lift;  ///< From P to the smooth surface that the vertex normals suggest, on the side that the ray
+                 ///< comes from; zero where that surface lies behind P, or where there is none.
+  F t;           ///< Distance along the ray.
+  F offset;      ///< Scene units.
 };
 
 namespace detail {
 
 inline constexpr double u = 0x1p-24;
 
-inline double sum_of_abs_products(const Vec3<double>& a, const Vec3<double>& b) {
+template <class F> F sum_of_abs_products(const Vec3<F>& a, const Vec3<F>& b) {
   return abs(a.x * b.x) + abs(a.y * b.y) + abs(a.z * b.z);
 }
 
 /// The offset of a flat primitive at P; `size`: the largest coordinate of the primitive.
-inline double flat_offset(const Vec3<double>& Ng, const Vec3<double>& P, double size) {
-  return 4 * u * sum_of_abs_products(Ng, P) + 0x1p-48 * (max_abs(P) + size);
+template <class F> F flat_offset(const Vec3<F>& Ng, const Vec3<F>& P, const F& size) {
+  return F(4 * u) * sum_of_abs_products(Ng, P) + F(0x1p-48) * (max_abs(P) + size);
 }
 
-inline void triangle_point(const Geometry& g, std::int32_t primitive, const Vec3<double>& o,
-                           const Vec3<double>& d, double t_found, SurfacePoint& s) {
-  const std::uint32_t* v = reinterpret_cast<const std::uint32_t*>(g.triangles) + 3 * std::size_t(primitive);
-  const Vec3<double> p[3] = {cast<double>(g.vertices[v[0]]), cast<double>(g.vertices[v[1]]),
-                             cast<double>(g.vertices[v[2]])};
-  const Vec3<double> e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
-  const double nn = dot(n, n), slope = dot(n, d),
-               size = max(max(max_abs(p[0]), max_abs(p[1])), max_abs(p[2]));
-  if (!(nn > 0)) {  // no area in double, though float's rounding gave it some
-    s.t = t_found;
-    s.P = o + t_found * d;
-    s.N = s.Ng = -normalize(d);
-    s.offset = flat_offset(s.Ng, s.P, size);
-    return;
-  }
-  const double t_plane = dot(n, p[0] - o) / slope;
-  const Vec3<double> q = o + (slope == 0 ? t_found : t_plane) * d - p[0];
+/// The instances of the lanes.
+template <class F> struct Placing { TransformOf<F> world_from_object, object_from_world; };
+
+/// Corners of the lanes' triangles, and where P lies between them.
+template <class F> struct Barycentric {
+  Vec3<F> p[3];
+  F b[3];
+  MaskOf<F> valid;  ///< False where the triangle has no area in double.
+};
+
+template <class F>
+Barycentric<F> triangle_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o,
+                              const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s) {
+  const F zero(0), one(1);
+  const auto corner = [&](int i) {
+    return gather_float_points<F>(
+        [&](int k) -> const Vec3<float>& { return g[k]->vertices[corners(*g[k], primitive[k])[i]]; });
+  };
+  const Vec3<F> p[3] = {corner(0), corner(1), corner(2)};
+  const Vec3<F> e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
+  const F nn = dot(n, n), slope = dot(n, d), size = max(max(max_abs(p[0]), max_abs(p[1])), max_abs(p[2]));
+  const F t_plane = select(slope == zero, t_found, dot(n, p[0] - o) / slope);
+  const Vec3<F> q = o + t_plane * d - p[0];
   // A ray that grazes may leave the triangle between float and double: hold it inside.
-  const double b1 = min(max(dot(cross(q, e2), n) / nn, 0.0), 1.0),
-               b2 = min(max(dot(cross(e1, q), n) / nn, 0.0), 1.0 - b1);
-  const double b[3] = {1 - b1 - b2, b1, b2};
+  const F inverse_nn = one / nn;
+  const F b1 = min(max(dot(cross(q, e2), n) * inverse_nn, zero), one),
+          b2 = min(max(dot(cross(e1, q), n) * inverse_nn, zero), one - b1);
   s.P = p[0] + (b1 * e1 + b2 * e2);
   s.t = dot(s.P - o, d) / dot(d, d);
-  s.Ng = (g.flipped ? -1.0 : 1.0) / sqrt(nn) * n;
+  const F outside = gather<F>([&](int k) { return g[k]->flipped ? -1.0 : 1.0; });
+  s.Ng = (outside / sqrt(nn)) * n;
+  const auto flat = !(nn > zero);  // no area in double, though float's rounding gave it some
+  if (any(MaskOf<F>(flat))) {
+    s.P = select(flat, o + t_found * d, s.P);
+    s.t = select(flat, t_found, s.t);
+    s.Ng = select(flat, -normalize(d), s.Ng);
+  }
   s.N = s.Ng;
   s.offset = flat_offset(s.Ng, s.P, size);
-  if (!g.normals) return;
-  Vec3<double> N{}, lift{};
+  return {{p[0], p[1], p[2]}, {one - b1 - b2, b1, b2}, MaskOf<F>(!flat)};
+}
+
+/// The shading normal and the lift of points on triangles with vertex normals. Both are made in the world: a
+/// stretched object is shaded as if its corners had been taken into the world first.
+template <class F>
+void smooth_triangle(const Geometry* const* g, const std::int32_t* primitive, const Barycentric<F>& at,
+                     const Placing<F>* placing, const Vec3<F>& d, SurfacePoint<F>& s) {
+  const F zero(0), one(1);
+  const Vec3<F> G = select(dot(s.Ng, d) <= zero, s.Ng, -s.Ng);
+  Vec3<F> N{zero, zero, zero}, lift{zero, zero, zero};
+  MaskOf<F> smooth = at.valid;
   for (int i = 0; i < 3; ++i) {
-    const Vec3<double> ni = cast<double>(g.normals[v[i]]);
-    if (dot(ni, ni) == 0) return;  // a corner without a normal: the face is flat
-    N = N + b[i] * ni;
+    static constexpr Vec3<float> none{0, 0, 0};
+    Vec3<F> ni = gather_float_points<F>([&](int k) -> const Vec3<float>& {
+      return g[k]->normals ? g[k]->normals[corners(*g[k], primitive[k])[i]] : none;
+    });
+    Vec3<F> p = at.p[i];
+    smooth = both(smooth, MaskOf<F>(dot(ni, ni) > zero));  // a corner without a normal: the face is flat
+    if (placing) {
+      ni = normalize(transform_normal(placing->object_from_world, ni));
+      p = transform_point(placing->world_from_object, p);
+    }
+    N = N + at.b[i] * ni;
     // Hanika, Hacking the shadow terminator, Ray Tracing Gems II, 2021: lift P to the corners' tangent
     // planes.
-    const double side = dot(ni, s.Ng) < 0 ? -1.0 : 1.0;
-    lift = lift - (b[i] * min(0.0, side * dot(s.P - p[i], ni)) * side) * ni;
+    const F side = select(dot(ni, G) < zero, -one, one);
+    lift = lift - (at.b[i] * min(zero, side * dot(s.P - p, ni)) * side) * ni;
   }
-  if (!(dot(N, N) > 1e-12)) return;
-  N = normalize(N);
-  s.N = dot(N, s.Ng) < 0 ? -N : N;
-  s.lift = lift;
+  const F NN = dot(N, N);
+  smooth = both(smooth, MaskOf<F>(NN > F(1e-12)));
+  N = (one / sqrt(NN)) * N;
+  s.N = select(smooth, select(dot(N, s.Ng) < zero, -N, N), s.N);
+  s.lift = select(smooth, lift, s.lift);
 }
 
-inline void sphere_point(const Sphere& sphere, const Vec3<double>& o, const Vec3<double>& d, double t_found,
-                         SurfacePoint& s) {
-  const Vec3<double> f = o - sphere.center;
-  const double a = dot(d, d), middle = -dot(f, d) / a;
-  const Vec3<double> l = f + middle * d;
-  const double half = sqrt(max(sphere.radius * sphere.radius - dot(l, l), 0.0) / a);
-  s.t = abs(middle - half - t_found) <= abs(middle + half - t_found) ? middle - half : middle + half;
+template <class F>
+void sphere_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o, const Vec3<F>& d,
+                  const F& t_found, SurfacePoint<F>& s) {
+  const auto sphere = [&](int k) -> const Sphere& { return g[k]->spheres[primitive[k]]; };
+  const Vec3<F> center = gather_points<F>([&](int k) -> const Vec3<double>& { return sphere(k).center; });
+  const F radius = gather<F>([&](int k) { return sphere(k).radius; });
+  const Vec3<F> f = o - center;
+  const F a = dot(d, d), middle = -dot(f, d) / a;
+  const Vec3<F> l = f + middle * d;
+  const F half = sqrt(max(radius * radius - dot(l, l), F(0)) / a);
+  const F nearer = middle - half, farther = middle + half;
+  s.t = select(abs(nearer - t_found) <= abs(farther - t_found), nearer, farther);
   s.Ng = s.N = normalize(f + s.t * d);
-  s.P = sphere.center + sphere.radius * s.Ng;
-  s.offset = 32 * u * (max_abs(s.P) + max_abs(sphere.center) + sphere.radius);
+  s.P = center + radius * s.Ng;
+  s.offset = F(32 * u) * (max_abs(s.P) + max_abs(center) + radius);
 }
 
-inline void cone_point(const PlacedCone& cone, const Vec3<double>& o, const Vec3<double>& d, double t_found,
-                       SurfacePoint& s) {
+template <class F>
+void cone_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o, const Vec3<F>& d,
+                const F& t_found, SurfacePoint<F>& s) {
+  const auto cone = [&](int k) -> const PlacedCone& { return g[k]->cones[primitive[k]]; };
+  const Vec3<F> base = gather_points<F>([&](int k) -> const Vec3<double>& { return cone(k).base; }),
+                axis = gather_points<F>([&](int k) -> const Vec3<double>& { return cone(k).axis; });
+  const F height = gather<F>([&](int k) { return cone(k).height; }),
+          radius = gather<F>([&](int k) { return cone(k).radius; }),
+          slope = gather<F>([&](int k) { return cone(k).slope; });
+  const F zero(0), infinity(__builtin_inf());
   // As meet_cone, from the origin next to the middle of the cone.
-  const double slide = -dot(o - (cone.base + 0.5 * cone.height * cone.axis), d) / dot(d, d);
-  const Vec3<double> f = o + slide * d - cone.base;
-  const double fz = dot(f, cone.axis), dz = dot(d, cone.axis), at_f = cone.radius + cone.slope * fz;
-  const Vec3<double> fp = f - fz * cone.axis, dp = d - dz * cone.axis;
-  const double A = dot(dp, dp) - cone.slope * cone.slope * (dz * dz),
-               B = cone.slope * dz * at_f - dot(fp, dp), C = dot(fp, fp) - at_f * at_f;
-  const double root = sqrt(max(B * B - A * C, 0.0)), q = B + (B < 0 ? -root : root);
-  const double t0 = C / q + slide, t1 = q / A + slide;
-  s.t = t_found;
-  if (abs(t0 - t_found) < __builtin_inf()) s.t = t0;
-  if (abs(t1 - t_found) < abs(s.t - t_found) || !(abs(t0 - t_found) < __builtin_inf()))
-    s.t = abs(t1) < __builtin_inf() ? t1 : s.t;
+  const F slide = -dot(o - (base + F(0.5) * height * axis), d) / dot(d, d);
+  const Vec3<F> f = o + slide * d - base;
+  const F fz = dot(f, axis), dz = dot(d, axis), at_f = radius + slope * fz;
+  const Vec3<F> fp = f - fz * axis, dp = d - dz * axis;
+  const F A = dot(dp, dp) - slope * slope * (dz * dz), B = slope * dz * at_f - dot(fp, dp),
+          C = dot(fp, fp) - at_f * at_f;
+  const F root = sqrt(max(B * B - A * C, zero)), q = B + select(B < zero, -root, root);
+  const F t0 = C / q + slide, t1 = q / A + slide;
+  // The root next to what the query found; what is not finite is not a root.
+  const F miss0 = abs(t0 - t_found), miss1 = abs(t1 - t_found);
+  s.t = select(miss0 < infinity, t0, t_found);
+  s.t = select(both(miss1 < infinity, either(MaskOf<F>(!(miss0 < infinity)), miss1 < miss0)), t1, s.t);
   s.P = o + s.t * d;
-  const Vec3<double> from_base = s.P - cone.base;
-  const double z = dot(from_base, cone.axis);
-  const Vec3<double> gradient =
-      from_base - z * cone.axis - (cone.slope * (cone.radius + cone.slope * z)) * cone.axis;
-  s.Ng = s.N =
-      dot(gradient, gradient) > 0 ? normalize(gradient) : cone.axis;  // the tip has no normal of its own
-  s.offset = 32 * u *
-             (max_abs(s.P) + max_abs(cone.base) + cone.height +
-              max(cone.radius, cone.radius + cone.slope * cone.height));
+  const Vec3<F> from_base = s.P - base;
+  const F z = dot(from_base, axis);
+  const Vec3<F> gradient = from_base - z * axis - (slope * (radius + slope * z)) * axis;
+  const F size = dot(gradient, gradient);
+  s.Ng = s.N = select(size > zero, (F(1) / sqrt(size)) * gradient, axis);  // the tip has no normal of its own
+  s.offset = F(32 * u) * (max_abs(s.P) + max_abs(base) + height + max(radius, radius + slope * height));
 }
 
-inline void plane_point(const Vec3<double>& point, const Vec3<double>& normal, const Vec3<double>& o,
-                        const Vec3<double>& d, double t_found, SurfacePoint& s) {
-  const double slope = dot(normal, d), t = dot(normal, point - o) / slope;
-  s.t = slope == 0 ? t_found : t;
-  const Vec3<double> q = o + s.t * d;
+template <class F>
+void plane_point(const Vec3<F>& point, const Vec3<F>& normal, const Vec3<F>& o, const Vec3<F>& d,
+                 const F& t_found, SurfacePoint<F>& s) {
+  const F slope = dot(normal, d);
+  s.t = select(slope == F(0), t_found, dot(normal, point - o) / slope);
+  const Vec3<F> q = o + s.t * d;
   s.P = q - dot(normal, q - point) * normal;  // q is off the plane by the rounding of t d
   s.Ng = s.N = normal;
   s.offset = flat_offset(s.Ng, s.P, max_abs(point));
@@ -141,46 +185,68 @@ inline void plane_point(const Vec3<double>& point, const Vec3<double>& normal, c
 
 }  // namespace detail
 
-/// The point where the ray o + t d (d of unit length) meets the primitive that a query named.
+/// The point where the ray o + t d (d of unit length) meets the primitive that a query named. All lanes of a
+/// packet must have met the same kind of primitive, all or none of them in instances.
 ///   t_found  the query's distance, to choose between the roots of curved primitives
-inline SurfacePoint surface_at(const WorldView& world, const HitIds<std::int32_t>& ids, const Vec3<double>& o,
-                               const Vec3<double>& d, double t_found) {
-  const Geometry& g = world.geometries[ids.geometry];
-  const Instance* instance = ids.instance >= 0 ? &world.instances[ids.instance] : nullptr;
-  const Vec3<double> local_o = instance ? transform_point(instance->object_from_world, o) : o;
-  const Vec3<double> local_d = instance ? transform_vector(instance->object_from_world, d) : d;
-  SurfacePoint s{};
-  switch (g.kind) {
-    case PrimitiveKind::triangle:
-      detail::triangle_point(g, ids.primitive, local_o, local_d, t_found, s);
-      break;
-    case PrimitiveKind::sphere:
-      detail::sphere_point(g.spheres[ids.primitive], local_o, local_d, t_found, s);
-      break;
-    case PrimitiveKind::cone:
-      detail::cone_point(g.cones[ids.primitive], local_o, local_d, t_found, s);
-      break;
-    case PrimitiveKind::disc:
-      detail::plane_point(g.discs[ids.primitive].center, g.discs[ids.primitive].normal, local_o, local_d,
-                          t_found, s);
-      break;
-    case PrimitiveKind::plane:
-      detail::plane_point(g.planes[ids.primitive].point, g.planes[ids.primitive].normal, local_o, local_d,
-                          t_found, s);
-      break;
-    case PrimitiveKind::instance:
-      __builtin_unreachable();
+template <class F>
+SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32_t*>& ids, const Vec3<F>& o,
+                           const Vec3<F>& d, const F& t_found) {
+  constexpr int lanes = lanes_of<F>;
+  const Geometry* g[lanes];
+  for (int k = 0; k < lanes; ++k) g[k] = &world.geometries[ids.geometry[k]];
+  const std::int32_t* primitive = ids.primitive;
+  const bool placed = ids.instance[0] >= 0;
+
+  SurfacePoint<F> s;
+  s.lift = {F(0), F(0), F(0)};
+  detail::Barycentric<F> at;
+  const auto meet_again = [&](const Vec3<F>& o, const Vec3<F>& d) {
+    switch (g[0]->kind) {
+      case PrimitiveKind::triangle:
+        at = detail::triangle_point(g, primitive, o, d, t_found, s);
+        return;
+      case PrimitiveKind::sphere:
+        return detail::sphere_point(g, primitive, o, d, t_found, s);
+      case PrimitiveKind::cone:
+        return detail::cone_point(g, primitive, o, d, t_found, s);
+      case PrimitiveKind::disc:
+        return detail::plane_point(
+            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].center; }),
+            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].normal; }),
+            o, d, t_found, s);
+      case PrimitiveKind::plane:
+        return detail::plane_point(
+            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].point; }),
+            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].normal; }),
+            o, d, t_found, s);
+      case PrimitiveKind::instance:
+        break;
+    }
+    __builtin_unreachable();
+  };
+  bool any_normals = false;
+  for (int k = 0; k < lanes; ++k) any_normals |= g[k]->normals != nullptr;
+  if (!placed) {
+    meet_again(o, d);
+    if (any_normals) detail::smooth_triangle<F>(g, primitive, at, nullptr, d, s);
+    return s;
   }
-  s.material = material_of(world, ids.instance, ids.geometry, ids.primitive);
-  if (!instance) return s;
-  const Vec3<double> normal = transform_normal(instance->object_from_world, s.Ng);
-  s.P = transform_point(instance->world_from_object, s.P);
+  const auto instance = [&](int k) -> const Instance& { return world.instances[ids.instance[k]]; };
+  const detail::Placing<F> placing{
+      gather_transform<F>([&](int k) -> const Transform& { return instance(k).world_from_object; }),
+      gather_transform<F>([&](int k) -> const Transform& { return instance(k).object_from_world; })};
+  meet_again(transform_point(placing.object_from_world, o), transform_vector(placing.object_from_world, d));
+  const Vec3<F> normal = transform_normal(placing.object_from_world, s.Ng);
+  s.P = transform_point(placing.world_from_object, s.P);
   s.offset = s.offset / length(normal);  // a height of 1 there is one of 1 / |normal| here
-  s.Ng = normalize(normal);
-  s.offset = s.offset + detail::flat_offset(s.Ng, s.P, max_abs(instance->world_from_object.translation));
-  s.N = normalize(transform_normal(instance->object_from_world, s.N));
-  s.lift = transform_vector(instance->world_from_object, s.lift);
+  s.N = s.Ng = normalize(normal);
+  s.offset = s.offset + detail::flat_offset(s.Ng, s.P, max_abs(placing.world_from_object.translation));
+  if (any_normals) detail::smooth_triangle(g, primitive, at, &placing, d, s);
   return s;
+}
+inline SurfacePoint<double> surface_at(const WorldView& world, const HitIds<std::int32_t>& ids,
+                                       const Vec3<double>& o, const Vec3<double>& d, double t_found) {
+  return surface_at<double>(world, {&ids.instance, &ids.geometry, &ids.primitive}, o, d, t_found);
 }
 
 }  // namespace LAMBENT_ISA

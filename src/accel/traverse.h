@@ -8,6 +8,7 @@
 // times the rounding of the tests of intersect.h, which see coordinates relative to the origin, (|o| +
 // extent) at the most, each off by a few units of 2^-24.
 
+#include "accel/gather.h"
 #include "accel/intersect.h"
 
 namespace lambent {
@@ -29,145 +30,447 @@ template <class F> struct Closest {
   HitIds<I> ids{I(-1), I(-1), I(-1)};
 };
 
-/// The ray as the boxes see it.
+/// Packets of rays that go through a tree together, at most this many.
+inline constexpr int max_packets = 8;
+
+/// The rays as the boxes see them. A box is met between its sides along x, y and z; from a side at p the ray
+/// is (p - o) / d away, or p / d - o / d.
 template <class F> struct BoxRay {
-  Vec3<F> o_low, o_high, inverse_d;
+  Vec3<F> inverse_d;
+  Vec3<F> low, high;  ///< o / d, for lower and upper sides: seen from o moved outwards by the margin.
+
+  BoxRay() = default;
   BoxRay(const QueryRay<F>& ray, float extent) {
     const F margin = F(0x1p-20f) * (max_abs(ray.o) + F(extent));
-    const Vec3<F> m{margin, margin, margin};
-    o_low = ray.o + m;  // lower sides of boxes are seen from here: nearer to them, or further behind
-    o_high = ray.o - m;
-    inverse_d = {invert(ray.d.x), invert(ray.d.y), invert(ray.d.z)};
+    const F tiny = F(1e-18f) * max_abs(ray.d);
+    inverse_d = {invert(ray.d.x, tiny), invert(ray.d.y, tiny), invert(ray.d.z, tiny)};
+    low = {(ray.o.x + margin) * inverse_d.x, (ray.o.y + margin) * inverse_d.y,
+           (ray.o.z + margin) * inverse_d.z};
+    high = {(ray.o.x - margin) * inverse_d.x, (ray.o.y - margin) * inverse_d.y,
+            (ray.o.z - margin) * inverse_d.z};
   }
-  /// 1 / d, but finite: a ray that does not move along an axis is inside the slab (t from -large to large) or
+  /// 1 / d, but finite: a ray that hardly moves along an axis is inside the slab (t from -large to large) or
   /// beside it.
-  static F invert(F d) {
-    const F tiny(1e-30f);
+  static F invert(F d, F tiny) {
     const F away_from_zero = select(abs(d) < tiny, select(d < F(0.f), -tiny, tiny), d);
     return F(1.f) / away_from_zero;
   }
-  MaskOf<F> meets(const BvhNode& node, F t_far) const {
-    const Vec3<F> a = multiply(spread<F>(node.lower) - o_low), b = multiply(spread<F>(node.upper) - o_high);
-    const F near = max(max(min(a.x, b.x), min(a.y, b.y)), max(min(a.z, b.z), F(0.f)));
-    const F far = min(min(max(a.x, b.x), max(a.y, b.y)), min(max(a.z, b.z), t_far));
-    return near <= far;
-  }
-  Vec3<F> multiply(const Vec3<F>& v) const {
-    return {v.x * inverse_d.x, v.y * inverse_d.y, v.z * inverse_d.z};
+
+  /// Whether the box is met before t_far; `side(row)` is a row of BvhNode::plane.
+  template <class Side> MaskOf<F> meets(const Side& side, const F& t_far, F& near) const {
+    const F ax = multiply_subtract_roughly(side(0), inverse_d.x, low.x),
+            ay = multiply_subtract_roughly(side(1), inverse_d.y, low.y),
+            az = multiply_subtract_roughly(side(2), inverse_d.z, low.z),
+            bx = multiply_subtract_roughly(side(3), inverse_d.x, high.x),
+            by = multiply_subtract_roughly(side(4), inverse_d.y, high.y),
+            bz = multiply_subtract_roughly(side(5), inverse_d.z, high.z);
+    near = max(max(min(ax, bx), min(ay, by)), max(min(az, bz), F(0.f)));
+    return near <= min(min(max(ax, bx), max(ay, by)), min(max(az, bz), t_far));
   }
 };
 
-/// Visits the leaves of a tree that the rays meet before t_far, roughly near to far; `leaf(ref)` may shorten
-/// t_far and clear lanes of `active`.
-template <class F, class Leaf>
-void traverse(const WorldView& world, const Bvh& bvh, const QueryRay<F>& ray, const F& t_far,
-              const MaskOf<F>& active, const Leaf& leaf) {
-  if (bvh.empty) return;
-  const BoxRay<F> box_ray(ray, bvh.extent);
-  // Near children first: judged by one lane, as it is only a matter of speed.
-  int leader = 0;
-  while (leader + 1 < lanes_of<F> && !lane(active, leader)) ++leader;
-  const float dx = lane(ray.d.x, leader), dy = lane(ray.d.y, leader), dz = lane(ray.d.z, leader);
+inline constexpr int max_stack = (bvh_width - 1) * max_tree_depth + bvh_width;
+using NodeLanes = Pack<float, bvh_width>;
 
-  std::uint32_t stack[128];  // the builder's trees are at most 64 deep
-  int size = 0;
-  stack[size++] = bvh.root;
-  while (size > 0) {
-    const BvhNode& node = world.nodes[stack[--size]];
-    if (!any(both(active, box_ray.meets(node, t_far)))) continue;
-    if (node.count > 0) {
-      for (std::uint32_t i = 0; i < node.count; ++i) leaf(world.refs[node.first + i]);
-      if (!any(active)) return;
-      continue;
+/// One ray, and all boxes of a node at once.
+struct RayBeam {
+  BoxRay<NodeLanes> ray;
+  RayBeam(const QueryRay<float>& one, float extent) : ray(QueryRay<NodeLanes>(one), extent) {}
+  std::uint32_t meets(const BvhNode& node, float t_far, NodeLanes& near) const {
+    const auto side = [&](int row) { return NodeLanes::load(node.plane[row]); };
+    return lane_bits(ray.meets(side, NodeLanes(t_far), near)) & ((1u << node.children) - 1);
+  }
+};
+
+/// Many rays that go the same way along each axis, as one: 1/d and the origins lie in intervals, and a box
+/// that no ray of these intervals meets is met by none. With c a point nearby, a side at p is
+///   (p - c) / d - (o - c) / d
+/// away: linear in 1/d, so that the ends of the interval bound it.
+struct PacketBeam {
+  struct Axis {
+    int nearer, farther;                               // rows of BvhNode::plane
+    NodeLanes inverse_low, inverse_high;               // the interval of 1/d
+    NodeLanes near_low, near_high, far_low, far_high;  // what to subtract from p / d at its ends
+  } axes[3];
+
+  /// Whether rays lie so close together that a beam of them is not much wider than each: within 20 degrees,
+  /// and the origins within a sixteenth of the scene. A matter of speed alone.
+  template <class F> static bool suits(const QueryRay<F>* rays, const F* t_far, int count, float extent) {
+    const int first = __builtin_ctz(lane_bits(t_far[0] >= F(0.f)) | (1u << (lanes_of<F> - 1)));
+    const Vec3<F> o{F(lane(rays[0].o.x, first)), F(lane(rays[0].o.y, first)), F(lane(rays[0].o.z, first))},
+        d{F(lane(rays[0].d.x, first)), F(lane(rays[0].d.y, first)), F(lane(rays[0].d.z, first))};
+    const F limit = F(0.94f * 0.94f) * dot(d, d), reach(extent * extent / 256);
+    MaskOf<F> apart(false);
+    for (int i = 0; i < count; ++i) {
+      const Vec3<F> between = rays[i].o - o;
+      const F cosine = dot(rays[i].d, d);
+      const MaskOf<F> close = both(cosine > F(0.f), cosine * cosine >= limit * dot(rays[i].d, rays[i].d),
+                                   dot(between, between) <= reach);
+      apart = either(apart, both(t_far[i] >= F(0.f), MaskOf<F>(!close)));
     }
-    const BvhNode &a = world.nodes[node.first], &b = world.nodes[node.first + 1];
-    const float along = dx * ((b.lower.x + b.upper.x) - (a.lower.x + a.upper.x)) +
-                        dy * ((b.lower.y + b.upper.y) - (a.lower.y + a.upper.y)) +
-                        dz * ((b.lower.z + b.upper.z) - (a.lower.z + a.upper.z));
-    const bool a_first = along >= 0;
-    stack[size++] = node.first + (a_first ? 1 : 0);
-    stack[size++] = node.first + (a_first ? 0 : 1);
+    return !any(apart);
+  }
+
+  /// False where the rays do not all go the same way; then this is no beam.
+  template <class F>
+  bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far, int count, float extent) {
+    const F zero(0.f);
+    for (int a = 0; a < 3; ++a) {
+      const auto of = [a](const auto& v) { return a == 0 ? v.x : a == 1 ? v.y : v.z; };
+      const F c(lane(of(rays[0].o), 0));
+      const F large(0x1p126f);
+      F low = large, high = -large, near = -large, far = large;
+      for (int i = 0; i < count; ++i) {
+        const F inverse = of(box_rays[i].inverse_d);
+        const F margin = F(0x1p-20f) * (max_abs(rays[i].o) + F(extent));
+        const F o = of(rays[i].o) - c, to_low = (o + margin) * inverse, to_high = (o - margin) * inverse;
+        const MaskOf<F> active = t_far[i] >= zero;
+        low = min(low, select(active, inverse, low));
+        high = max(high, select(active, inverse, high));
+        near = max(near, select(active, max(to_low, to_high), near));
+        far = min(far, select(active, min(to_low, to_high), far));
+      }
+      const float inverse_low = least(low), inverse_high = greatest(high);
+      if (!(inverse_low > 0) && !(inverse_high < 0)) return false;
+      Axis& axis = axes[a];
+      axis.nearer = inverse_low > 0 ? a : a + 3;
+      axis.farther = inverse_low > 0 ? a + 3 : a;
+      axis.inverse_low = inverse_low, axis.inverse_high = inverse_high;
+      const float at = lane(c, 0), most = greatest(near), fewest = least(far);
+      axis.near_low = at * inverse_low + most, axis.near_high = at * inverse_high + most;
+      axis.far_low = at * inverse_low + fewest, axis.far_high = at * inverse_high + fewest;
+    }
+    return true;
+  }
+
+  std::uint32_t meets(const BvhNode& node, float t_far, NodeLanes& near) const {
+    const auto nearest = [&](const Axis& a) {
+      const NodeLanes side = NodeLanes::load(node.plane[a.nearer]);
+      return min(multiply_subtract_roughly(side, a.inverse_low, a.near_low),
+                 multiply_subtract_roughly(side, a.inverse_high, a.near_high));
+    };
+    const auto farthest = [&](const Axis& a) {
+      const NodeLanes side = NodeLanes::load(node.plane[a.farther]);
+      return max(multiply_subtract_roughly(side, a.inverse_low, a.far_low),
+                 multiply_subtract_roughly(side, a.inverse_high, a.far_high));
+    };
+    near = max(max(nearest(axes[0]), nearest(axes[1])), max(nearest(axes[2]), NodeLanes(0.f)));
+    const NodeLanes far =
+        min(min(farthest(axes[0]), farthest(axes[1])), min(farthest(axes[2]), NodeLanes(t_far)));
+    return lane_bits(near <= far) & ((1u << node.children) - 1);
+  }
+};
+
+/// Visits the leaves of a tree that a beam meets before t_far, roughly near to far; `leaf(child, node, i)`,
+/// child i of that node, may shorten t_far.
+template <class Beam, class Leaf>
+void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t_far, const Leaf& leaf) {
+  struct Entry {
+    float near;
+    std::uint32_t node;
+    int child;  // -1: the node itself
+  } stack[max_stack];
+  int size = 0;
+  std::uint32_t at_node = bvh.root;
+  int at_child = -1;
+  for (;;) {
+    const BvhNode& node = world.nodes[at_node];
+    if (at_child >= 0) {
+      leaf(BvhChild{node.first[at_child], node.count[at_child], node.kind[at_child]}, node, at_child);
+    } else {
+      NodeLanes near;
+      std::uint32_t met = beam.meets(node, t_far, near);
+      float distance[bvh_width];
+      near.store(distance);
+      const int bottom = size;
+      for (; met; met &= met - 1) {
+        const int i = __builtin_ctz(met);
+        int at = size++;
+        for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
+        stack[at] =
+            node.count[i] > 0 ? Entry{distance[i], at_node, i} : Entry{distance[i], node.first[i], -1};
+      }
+    }
+    do {
+      if (size == 0) return;
+      --size;
+    } while (!(stack[size].near <= t_far));
+    at_node = stack[size].node;
+    at_child = stack[size].child;
+  }
+}
+
+/// The same for the rays of one packet that go different ways, box by box.
+template <class F, class Leaf>
+void traverse_apart(const WorldView& world, const Bvh& bvh, const BoxRay<F>& box_ray, F& t_far,
+                    const Leaf& leaf) {
+  struct Entry {
+    F near;
+    std::uint32_t first, count;
+    LeafKind kind;
+  } stack[max_stack];
+  int size = 0;
+  BvhChild child{bvh.root, 0};
+  for (;;) {
+    if (child.count > 0) {
+      leaf(child);
+    } else {
+      const BvhNode& node = world.nodes[child.first];
+      const int bottom = size;
+      float keys[bvh_width];
+      for (std::uint32_t i = 0; i < node.children; ++i) {
+        F near;
+        const MaskOf<F> met = box_ray.meets([&](int row) { return F(node.plane[row][i]); }, t_far, near);
+        if (!any(met)) continue;
+        near = select(met, near, F(__builtin_inff()));
+        const float key = least(near);
+        int at = size++;  // sorted in, the nearest on top
+        for (; at > bottom && keys[at - 1 - bottom] < key; --at) {
+          stack[at] = stack[at - 1];
+          keys[at - bottom] = keys[at - 1 - bottom];
+        }
+        keys[at - bottom] = key;
+        stack[at] = {near, node.first[i], node.count[i], node.kind[i]};
+      }
+    }
+    do {
+      if (size == 0) return;
+      --size;
+    } while (!any(stack[size].near <= t_far));
+    child = {stack[size].first, stack[size].count, stack[size].kind};
+  }
+}
+
+/// Sends packets of rays through a tree: `leaf(child, i)` for each leaf that packet i may meet before
+/// t_far[i], which it may shorten. A lane with t_far < 0 does not count.
+template <class F, class Leaf>
+void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>* rays, F* t_far, int count,
+                      const Leaf& leaf) {
+  if (bvh.empty) return;
+  if constexpr (lanes_of<F> == 1) {
+    if (t_far[0] < 0) return;
+    traverse(world, bvh, RayBeam(rays[0], bvh.extent), t_far[0],
+             [&](const BvhChild& child, const BvhNode&, int) { leaf(child, 0); });
+  } else {
+    BoxRay<F> box_rays[max_packets];
+    for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
+    // All packets as one beam, or else each as one, or else box by box.
+    const auto send = [&](int first, int size) {
+      const auto farthest = [&] {
+        F most = t_far[first];
+        for (int i = first + 1; i < first + size; ++i) most = max(most, t_far[i]);
+        return greatest(most);
+      };
+      float beam_far = farthest();
+      if (beam_far < 0) return true;
+      PacketBeam beam;
+      if (!PacketBeam::suits(rays + first, t_far + first, size, bvh.extent)) return false;
+      if (!beam.set(rays + first, box_rays + first, t_far + first, size, bvh.extent)) return false;
+      traverse(world, bvh, beam, beam_far, [&](const BvhChild& child, const BvhNode& node, int c) {
+        bool asked = false;
+        for (int i = first; i < first + size; ++i) {
+          F near;
+          if (!any(box_rays[i].meets([&](int row) { return F(node.plane[row][c]); }, t_far[i], near)))
+            continue;
+          leaf(child, i);
+          asked = true;
+        }
+        if (asked) beam_far = farthest();
+      });
+      return true;
+    };
+    if (send(0, count)) return;
+    for (int i = 0; i < count; ++i)
+      if (count == 1 || !send(i, 1))
+        traverse_apart(world, bvh, box_rays[i], t_far[i], [&](const BvhChild& child) { leaf(child, i); });
   }
 }
 
 /// Takes the ray into the space of an instance. In double, so that no more than one rounding is added.
 template <class F> QueryRay<F> enter(const Instance& instance, const QueryRay<F>& ray) {
-  Vec3<F> local_o, local_d;
-  for (int i = 0; i < lanes_of<F>; ++i) {
-    const Vec3<double> o =
-        transform_point(instance.object_from_world, {lane(ray.o.x, i), lane(ray.o.y, i), lane(ray.o.z, i)});
-    const Vec3<double> d =
-        transform_vector(instance.object_from_world, {lane(ray.d.x, i), lane(ray.d.y, i), lane(ray.d.z, i)});
-    set_lane(local_o.x, i, float(o.x)), set_lane(local_o.y, i, float(o.y)),
-        set_lane(local_o.z, i, float(o.z));
-    set_lane(local_d.x, i, float(d.x)), set_lane(local_d.y, i, float(d.y)),
-        set_lane(local_d.z, i, float(d.z));
-  }
-  return {local_o, local_d};
+  using D = With<F, double>;
+  const auto object_from_world =
+      gather_transform<D>([&](int) -> const Transform& { return instance.object_from_world; });
+  const auto to_double = [](const Vec3<F>& v) {
+    return Vec3<D>{number_cast<double>(v.x), number_cast<double>(v.y), number_cast<double>(v.z)};
+  };
+  const auto to_float = [](const Vec3<D>& v) {
+    return Vec3<F>{number_cast<float>(v.x), number_cast<float>(v.y), number_cast<float>(v.z)};
+  };
+  return {to_float(transform_point(object_from_world, to_double(ray.o))),
+          to_float(transform_vector(object_from_world, to_double(ray.d)))};
 }
 
-/// Calls see(instance, ref, ray) for every primitive that may be met, with the ray in the primitive's space.
+/// Asks the primitives of a leaf: see(instance, ref, meeting) for each that some ray meets.
 template <class F, class See>
-void visit_primitives(const WorldView& world, const QueryRay<F>& ray, const F& t_far, const MaskOf<F>& active,
-                      const See& see) {
-  for (std::uint32_t i = 0; i < world.plane_count; ++i) see(-1, world.planes[i], ray);
-  traverse(world, world.bvhs[0], ray, t_far, active, [&](const PrimitiveRef& ref) {
-    if (ref.geometry != instance_geometry) return see(-1, ref, ray);
-    const Instance& instance = world.instances[ref.primitive];
-    const QueryRay<F> inside =
-        enter(instance, ray);  // t keeps its meaning: the direction is not normalised again
-    traverse(world, world.bvhs[instance.bvh], inside, t_far, active,
-             [&](const PrimitiveRef& inner) { see(ref.primitive, inner, inside); });
+void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray,
+              const See& see) {
+  const PrimitiveRef* refs = world.refs + leaf.first;
+  const auto ask = [&](const PrimitiveRef& ref, const Meeting<F>& m) {
+    if (any(m.hit)) see(instance, ref, m);
+  };
+  switch (leaf.kind) {
+    case LeafKind::triangles: {
+      const Geometry& g = world.geometries[refs[0].geometry];
+      for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        const std::uint32_t* v = corners(g, refs[i].primitive);
+        ask(refs[i], meet_triangle(ray, spread<F>(g.vertices[v[0]]), spread<F>(g.vertices[v[1]]),
+                                   spread<F>(g.vertices[v[2]])));
+      }
+      return;
+    }
+    case LeafKind::spheres:
+      for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        const LeafSphere& s = world.leaf_spheres[leaf.first + i];
+        ask(refs[i], meet_sphere(ray, Vec3<F>{F(s.x), F(s.y), F(s.z)}, F(s.radius)));
+      }
+      return;
+    case LeafKind::mixed:
+      for (std::uint32_t i = 0; i < leaf.count; ++i)
+        ask(refs[i], meet(world.geometries[refs[i].geometry], refs[i].primitive, ray));
+      return;
+  }
+}
+
+/// The same for one ray: four primitives at a time, a lane for each.
+template <class See>
+void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<float>& ray,
+              const QueryRay<Pack<float, 4>>& four_rays, const See& see) {
+  using Four = Pack<float, 4>;
+  const PrimitiveRef* refs = world.refs + leaf.first;
+  if (leaf.kind == LeafKind::mixed || leaf.count == 1) return ask_leaf(world, leaf, instance, ray, see);
+  for (std::uint32_t first = 0; first < leaf.count; first += 4) {
+    const auto of_lane = [&](int k) { return min(first + std::uint32_t(k), leaf.count - 1); };
+    Meeting<Four> m;
+    if (leaf.kind == LeafKind::triangles) {
+      const Geometry& g = world.geometries[refs[0].geometry];
+      Vec3<float> p[3][4];
+      for (int k = 0; k < 4; ++k) {
+        const std::uint32_t* v = corners(g, refs[of_lane(k)].primitive);
+        for (int c = 0; c < 3; ++c) p[c][k] = g.vertices[v[c]];
+      }
+      const auto corner = [&](int c) {
+        return Vec3<Four>{gather<Four>([&](int k) { return p[c][k].x; }),
+                          gather<Four>([&](int k) { return p[c][k].y; }),
+                          gather<Four>([&](int k) { return p[c][k].z; })};
+      };
+      m = meet_triangle(four_rays, corner(0), corner(1), corner(2));
+    } else {
+      const LeafSphere* s = world.leaf_spheres + leaf.first;
+      m = meet_sphere(four_rays,
+                      Vec3<Four>{gather<Four>([&](int k) { return s[of_lane(k)].x; }),
+                                 gather<Four>([&](int k) { return s[of_lane(k)].y; }),
+                                 gather<Four>([&](int k) { return s[of_lane(k)].z; })},
+                      gather<Four>([&](int k) { return s[of_lane(k)].radius; }));
+    }
+    const std::uint32_t real = (1u << min(leaf.count - first, 4u)) - 1;
+    for (std::uint32_t met = lane_bits(m.hit) & real; met; met &= met - 1) {
+      const int k = __builtin_ctz(met);
+      see(instance, refs[first + k], Meeting<float>{lane(m.t, k), true});
+    }
+  }
+}
+
+/// Calls see(i, instance, ref, meeting) for every primitive that some ray of packet i meets and that may lie
+/// before t_far[i].
+template <class F, class See>
+void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far, int count, const See& see) {
+  for (std::uint32_t p = 0; p < world.plane_count; ++p)
+    for (int i = 0; i < count; ++i) {
+      const Meeting<F> m =
+          meet(world.geometries[world.planes[p].geometry], world.planes[p].primitive, rays[i]);
+      if (any(m.hit)) see(i, -1, world.planes[p], m);
+    }
+  const auto ask = [&](const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray, int i) {
+    const auto seen = [&](std::int32_t in, const PrimitiveRef& ref, const Meeting<F>& m) {
+      see(i, in, ref, m);
+    };
+    if constexpr (lanes_of<F> == 1) ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), seen);
+    else ask_leaf(world, leaf, instance, ray, seen);
+  };
+  traverse_packets(world, world.bvhs[0], rays, t_far, count, [&](const BvhChild& leaf, int i) {
+    if (leaf.kind != LeafKind::mixed) return ask(leaf, -1, rays[i], i);
+    for (std::uint32_t r = leaf.first; r < leaf.first + leaf.count; ++r) {
+      const PrimitiveRef& ref = world.refs[r];
+      if (ref.geometry != instance_geometry) {
+        const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, rays[i]);
+        if (any(m.hit)) see(i, -1, ref, m);
+        continue;
+      }
+      const Instance& instance = world.instances[ref.primitive];
+      const QueryRay<F> inside =
+          enter(instance, rays[i]);  // t keeps its meaning: the direction is not normalised again
+      traverse_packets(world, world.bvhs[instance.bvh], &inside, t_far + i, 1,
+                       [&](const BvhChild& inner, int) { ask(inner, ref.primitive, inside, i); });
+    }
   });
 }
 
-/// The closest hit before hit.t, in every active lane.
+/// For `count` packets of rays (at most max_packets) the closest hits before hits[i].t, in every active lane.
+template <class F>
+void find_closest(const WorldView& world, const QueryRay<F>* rays, const MaskOf<F>* active, int count,
+                  Closest<F>* hits) {
+  using I = typename Closest<F>::I;
+  F t_far[max_packets];
+  for (int i = 0; i < count; ++i) t_far[i] = select(active[i], hits[i].t, F(-1.f));
+  visit_primitives(world, rays, t_far, count,
+                   [&](int i, std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {
+                     HitIds<I>& ids = hits[i].ids;
+                     const I in(instance), ge(ref.geometry), pr(ref.primitive);
+                     MaskOf<F> better = both(m.hit, m.t < t_far[i]);
+                     const MaskOf<F> equal = both(m.hit, m.t == t_far[i]);
+                     if (any(equal)) {
+                       const MaskOf<F> lower_number = either(
+                           in < ids.instance,
+                           both(in == ids.instance,
+                                either(ge < ids.geometry, both(ge == ids.geometry, pr < ids.primitive))));
+                       better = either(better, both(equal, lower_number, ids.geometry >= I(0)));
+                     }
+                     t_far[i] = select(better, m.t, t_far[i]);
+                     ids.instance = select(better, in, ids.instance);
+                     ids.geometry = select(better, ge, ids.geometry);
+                     ids.primitive = select(better, pr, ids.primitive);
+                   });
+  for (int i = 0; i < count; ++i) hits[i].t = select(active[i], t_far[i], hits[i].t);
+}
 template <class F>
 void find_closest(const WorldView& world, const QueryRay<F>& ray, MaskOf<F> active, Closest<F>& hit) {
-  using I = typename Closest<F>::I;
-  visit_primitives(
-      world, ray, hit.t, active,
-      [&](std::int32_t instance, const PrimitiveRef& ref, const QueryRay<F>& local) {
-        const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, local);
-        const I in(instance), ge(ref.geometry), pr(ref.primitive);
-        const MaskOf<F> lower_number =
-            either(in < hit.ids.instance,
-                   both(in == hit.ids.instance,
-                        either(ge < hit.ids.geometry, both(ge == hit.ids.geometry, pr < hit.ids.primitive))));
-        const MaskOf<F> better = both(
-            active, m.hit, either(m.t < hit.t, both(m.t == hit.t, lower_number, hit.ids.geometry >= I(0))));
-        hit.t = select(better, m.t, hit.t);
-        hit.ids.instance = select(better, in, hit.ids.instance);
-        hit.ids.geometry = select(better, ge, hit.ids.geometry);
-        hit.ids.primitive = select(better, pr, hit.ids.primitive);
-      });
+  find_closest(world, &ray, &active, 1, &hit);
 }
 
 /// The scene's material of a primitive.
 inline std::uint32_t material_of(const WorldView& world, std::int32_t instance, std::int32_t geometry,
                                  std::int32_t primitive) {
   const Geometry& g = world.geometries[geometry];
+  if (g.scene_material) return g.scene_material[primitive];
   const std::uint32_t object = instance >= 0 ? world.instances[instance].object : g.object;
   return world.objects[object].materials[g.material_of_primitive ? g.material_of_primitive[primitive] : 0];
 }
 
-/// Where something opaque stands in the way before t_far. With `all_opaque`, everything counts as opaque.
+/// For `count` packets of rays where something opaque stands in the way before t_far. With `all_opaque`,
+/// everything counts as opaque. Clears `open` (at first the lanes that ask) where the way is blocked.
 template <class F>
-MaskOf<F> find_occluded(const WorldView& world, const QueryRay<F>& ray, MaskOf<F> active, F t_far,
-                        bool all_opaque) {
-  MaskOf<F> occluded(false);
-  visit_primitives(world, ray, t_far, active,
-                   [&](std::int32_t instance, const PrimitiveRef& ref, const QueryRay<F>& local) {
-                     const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, local);
-                     const MaskOf<F> blocked = both(active, m.hit, m.t < t_far);
+void find_open(const WorldView& world, const QueryRay<F>* rays, const F* t_far, int count, bool all_opaque,
+               MaskOf<F>* open) {
+  F left[max_packets];
+  for (int i = 0; i < count; ++i) left[i] = select(open[i], t_far[i], F(-1.f));
+  visit_primitives(world, rays, left, count,
+                   [&](int i, std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {
+                     const MaskOf<F> blocked = both(m.hit, m.t < left[i]);
                      if (!any(blocked)) return;
                      if (!all_opaque &&
                          world.material_transmits[material_of(world, instance, ref.geometry, ref.primitive)])
                        return;
-                     occluded = either(occluded, blocked);
-                     active = both(active, MaskOf<F>(!blocked));
+                     left[i] = select(blocked, F(-1.f), left[i]);
                    });
-  return occluded;
+  for (int i = 0; i < count; ++i) open[i] = both(open[i], left[i] >= F(0.f));
+}
+template <class F>
+MaskOf<F> find_occluded(const WorldView& world, const QueryRay<F>& ray, MaskOf<F> active, F t_far,
+                        bool all_opaque) {
+  MaskOf<F> open = active;
+  find_open(world, &ray, &t_far, 1, all_opaque, &open);
+  return both(active, MaskOf<F>(!open));
 }
 
 }  // namespace LAMBENT_ISA

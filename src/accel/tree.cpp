@@ -6,7 +6,10 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <atomic>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -15,86 +18,163 @@
 namespace lambent {
 namespace {
 
-// The tree as the builder hands it out, node by node, from several threads; its memory is the builder's.
-struct Node {
-  virtual ~Node() = default;
-};
-struct Inner final : Node {
-  Node* children[2] = {};
-  RTCBounds bounds[2];
-};
-struct Leaf final : Node {
-  std::uint32_t count = 0;
-  PrimitiveRef refs[1];  // `count` of them, in memory reserved for that many
-};
-
 constexpr unsigned max_leaf_size = 8;
 
-template <class T> T* make_node(RTCThreadLocalAllocator allocator, std::size_t extra = 0) {
-  return new (rtcThreadLocalAlloc(allocator, sizeof(T) + extra, 16)) T;
+PrimitiveKind kind_of(const PrimitiveRef& ref, const World& world) {
+  return ref.geometry == instance_geometry ? PrimitiveKind::instance : world.geometries[ref.geometry].kind;
 }
 
-void* create_inner(RTCThreadLocalAllocator allocator, unsigned, void*) {
-  return static_cast<Node*>(make_node<Inner>(allocator));
-}
-void set_children(void* node, void** children, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i)
-    static_cast<Inner*>(static_cast<Node*>(node))->children[i] = static_cast<Node*>(children[i]);
-}
-void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-  for (unsigned i = 0; i < count; ++i) static_cast<Inner*>(static_cast<Node*>(node))->bounds[i] = *bounds[i];
-}
-void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, std::size_t count,
-                  void*) {
-  Leaf* leaf = make_node<Leaf>(allocator, (count - 1) * sizeof(PrimitiveRef));
-  leaf->count = std::uint32_t(count);
-  for (std::size_t i = 0; i < count; ++i)
-    leaf->refs[i] = {std::int32_t(primitives[i].geomID), std::int32_t(primitives[i].primID)};
-  return static_cast<Node*>(leaf);
-}
-
-void flatten(const Node* node, std::uint32_t slot, std::vector<BvhNode>& nodes,
-             std::vector<PrimitiveRef>& refs) {
-  if (const auto* leaf = dynamic_cast<const Leaf*>(node)) {
-    nodes[slot].first = std::uint32_t(refs.size());
-    nodes[slot].count = leaf->count;
-    for (std::uint32_t i = 0; i < leaf->count; ++i) refs.push_back((&leaf->refs[0])[i]);
-    return;
+LeafKind kind_of(const PrimitiveRef* refs, std::uint32_t count, const World& world) {
+  const PrimitiveKind kind = kind_of(refs[0], world);
+  bool one_kind = true, one_geometry = true;
+  for (std::uint32_t i = 1; i < count; ++i) {
+    one_kind &= kind_of(refs[i], world) == kind;
+    one_geometry &= refs[i].geometry == refs[0].geometry;
   }
-  const auto* inner = static_cast<const Inner*>(node);
-  const auto first = std::uint32_t(nodes.size());
-  nodes[slot].first = first;
-  nodes[slot].count = 0;
-  for (const RTCBounds& b : inner->bounds)
-    nodes.push_back({{b.lower_x, b.lower_y, b.lower_z}, 0, {b.upper_x, b.upper_y, b.upper_z}, 0});
-  for (std::uint32_t i = 0; i < 2; ++i) flatten(inner->children[i], first + i, nodes, refs);
+  if (kind == PrimitiveKind::triangle && one_geometry) return LeafKind::triangles;
+  if (kind == PrimitiveKind::sphere && one_kind) return LeafKind::spheres;
+  return LeafKind::mixed;
 }
 
-}  // namespace
+void clear(BvhNode& node) {
+  node = {};
+  for (int i = 0; i < bvh_width; ++i)
+    for (int axis = 0; axis < 3; ++axis) node.plane[axis][i] = INFINITY, node.plane[axis + 3][i] = -INFINITY;
+}
 
-Bvh build_tree(std::vector<BoxedPrimitive> primitives, std::vector<BvhNode>& nodes,
-               std::vector<PrimitiveRef>& refs) {
-  Bvh bvh{std::uint32_t(nodes.size()), 0, primitives.empty()};
-  if (primitives.empty()) return bvh;
+void set_child(BvhNode& node, std::uint32_t i, const BvhChild& child) {
+  node.first[i] = child.first;
+  node.count[i] = std::uint16_t(child.count);
+  node.kind[i] = child.kind;
+}
 
-  BvhNode root{primitives[0].lower, 0, primitives[0].upper, 0};
-  static_assert(sizeof(RTCBuildPrimitive) == 32 && sizeof(BoxedPrimitive) == 32);
-  struct alignas(32) Aligned {
-    RTCBuildPrimitive primitive;
-  };
-  std::vector<Aligned> build(primitives.size());
-  for (std::size_t i = 0; i < primitives.size(); ++i) {
-    const BoxedPrimitive& p = primitives[i];
-    build[i].primitive = {p.lower.x, p.lower.y, p.lower.z, unsigned(p.ref.geometry),
-                          p.upper.x, p.upper.y, p.upper.z, unsigned(p.ref.primitive)};
-    root.lower = {std::fmin(root.lower.x, p.lower.x), std::fmin(root.lower.y, p.lower.y),
-                  std::fmin(root.lower.z, p.lower.z)};
-    root.upper = {std::fmax(root.upper.x, p.upper.x), std::fmax(root.upper.y, p.upper.y),
-                  std::fmax(root.upper.z, p.upper.z)};
+void set_box(BvhNode& node, std::uint32_t i, const Vec3<float>& lower, const Vec3<float>& upper) {
+  node.plane[0][i] = lower.x, node.plane[1][i] = lower.y, node.plane[2][i] = lower.z;
+  node.plane[3][i] = upper.x, node.plane[4][i] = upper.y, node.plane[5][i] = upper.z;
+}
+
+/// The builder's end of a tree: it calls the functions below from several threads, and whatever they return
+/// it hands to set_children later. Nodes and leaves go straight to where they stay, and the primitives' boxes
+/// go as the leaves come, so that the two together never take much more memory than the finished tree.
+class Growing {
+ public:
+  Growing(Pages<BoxedPrimitive>& primitives, World& world)
+      : world_(world),
+        primitives_(primitives),
+        done_(std::make_unique<std::atomic<std::uint32_t>[]>(primitives.size() / primitives.step + 1)),
+        nodes_(primitives.size()),  // every node has two children at least
+        first_node_(std::uint32_t(world.nodes.size())),
+        first_ref_(std::uint32_t(world.refs.size())) {
+    reserve(world.refs, primitives.size());
+    world.refs.resize(first_ref_ + primitives.size());
   }
-  primitives = {};
-  bvh.extent = std::fmax(max_abs(root.lower), max_abs(root.upper));
 
+  static void* create_node(RTCThreadLocalAllocator, unsigned count, void* self) {
+    return static_cast<Growing*>(self)->add_node(count);
+  }
+  static void set_children(void* node, void** children, unsigned count, void* self) {
+    BvhNode& to = static_cast<Growing*>(self)->node(node);
+    for (unsigned i = 0; i < count; ++i) set_child(to, i, child_of(children[i]));
+  }
+  static void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void* self) {
+    BvhNode& to = static_cast<Growing*>(self)->node(node);
+    for (unsigned i = 0; i < count; ++i) {
+      const RTCBounds& b = *bounds[i];
+      set_box(to, i, {b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z});
+    }
+  }
+  static void* create_leaf(RTCThreadLocalAllocator, const RTCBuildPrimitive* primitives, std::size_t count,
+                           void* self) {
+    return static_cast<Growing*>(self)->add_leaf(primitives, std::uint32_t(count));
+  }
+
+  /// Appends the nodes to the world's; returns the top.
+  BvhChild finish(void* top) {
+    const BvhChild root = child_of(top);
+    const std::size_t count = next_node_;
+    reserve(world_.nodes, count);
+    for (std::size_t i = 0; i < count; i += nodes_.step) {
+      const std::size_t end = std::min(i + nodes_.step, count);
+      world_.nodes.insert(world_.nodes.end(), nodes_.data() + i, nodes_.data() + end);
+      nodes_.give_back(i, end);
+    }
+    return root;
+  }
+
+ private:
+  /// Exactly for the first tree, which most scenes have only; later ones must not copy the earlier ones each
+  /// time.
+  template <class T> static void reserve(std::vector<T>& list, std::size_t more) {
+    if (list.size() + more > list.capacity()) list.reserve(std::max(list.size() + more, 2 * list.size()));
+  }
+
+  // A child in the bits of a pointer, never null: the builder takes that for a failure.
+  static_assert(sizeof(void*) == sizeof(std::uint64_t));
+  static void* pointer_of(const BvhChild& child) {
+    return reinterpret_cast<void*>(std::uint64_t(child.first) << 32 | std::uint64_t(child.count) << 16 |
+                                   std::uint64_t(child.kind) << 8 | 1);
+  }
+  static BvhChild child_of(void* pointer) {
+    const auto bits = reinterpret_cast<std::uint64_t>(pointer);
+    return {std::uint32_t(bits >> 32), std::uint32_t(bits >> 16 & 0xffff), LeafKind(bits >> 8 & 0xff)};
+  }
+
+  BvhNode& node(void* pointer) { return nodes_[child_of(pointer).first - first_node_]; }
+
+  void* add_node(unsigned count) {
+    const std::uint32_t index = next_node_++;
+    clear(nodes_[index]);
+    nodes_[index].children = count;
+    return pointer_of({first_node_ + index, 0, LeafKind::mixed});
+  }
+
+  void* add_leaf(const RTCBuildPrimitive* given, std::uint32_t count) {
+    // The thorough builder sorts the primitives where they are, so that a leaf is a stretch of them; the
+    // quick one hands out copies.
+    const auto* p = reinterpret_cast<const BoxedPrimitive*>(given);
+    const bool in_place = !std::less<>()(p, primitives_.begin()) && std::less<>()(p, primitives_.end());
+    const std::uint32_t at = in_place ? std::uint32_t(p - primitives_.begin()) : next_copy_.fetch_add(count);
+    PrimitiveRef* refs = world_.refs.data() + first_ref_ + at;
+    for (std::uint32_t i = 0; i < count; ++i) refs[i] = {p[i].geometry, p[i].primitive};
+    if (in_place) give_back(at, count);
+    return pointer_of({first_ref_ + at, count, kind_of(refs, count, world_)});
+  }
+
+  /// Once all of a step's primitives are in leaves, their boxes have done their work.
+  void give_back(std::uint32_t at, std::uint32_t count) {
+    constexpr std::uint32_t step = Pages<BoxedPrimitive>::step;
+    for (const std::uint32_t end = at + count; at < end;) {
+      const std::uint32_t block = at / step, here = std::min(end, (block + 1) * step) - at;
+      if (done_[block].fetch_add(here) + here == step)
+        primitives_.give_back(std::size_t(block) * step, std::size_t(block + 1) * step);
+      at += here;
+    }
+  }
+
+  World& world_;
+  Pages<BoxedPrimitive>& primitives_;
+  std::unique_ptr<std::atomic<std::uint32_t>[]> done_;  ///< Of each step, how many are in leaves.
+  Pages<BvhNode> nodes_;
+  std::uint32_t first_node_, first_ref_;  ///< Where this tree begins in the world's.
+  std::atomic<std::uint32_t> next_node_{0}, next_copy_{0};
+};
+
+/// One node with a leaf for each: the builder and its threads would take longer than the picture.
+std::uint32_t add_small_tree(Pages<BoxedPrimitive>& primitives, World& world) {
+  BvhNode node;
+  clear(node);
+  for (const BoxedPrimitive& p : primitives) {
+    const PrimitiveRef ref{p.geometry, p.primitive};
+    set_child(node, node.children, {std::uint32_t(world.refs.size()), 1, kind_of(&ref, 1, world)});
+    set_box(node, node.children++, p.lower, p.upper);
+    world.refs.push_back(ref);
+  }
+  world.nodes.push_back(node);
+  return std::uint32_t(world.nodes.size() - 1);
+}
+
+std::uint32_t add_large_tree(Pages<BoxedPrimitive>& primitives, TreeQuality quality, const Bvh& all,
+                             World& world) {
   struct Release {
     void operator()(RTCDevice d) const { rtcReleaseDevice(d); }
     void operator()(RTCBVH b) const { rtcReleaseBVH(b); }
@@ -103,29 +183,58 @@ Bvh build_tree(std::vector<BoxedPrimitive> primitives, std::vector<BvhNode>& nod
   if (!device) throw Failure("the tree builder could not be started");
   std::unique_ptr<std::remove_pointer_t<RTCBVH>, Release> builder(rtcNewBVH(device.get()));
 
+  static_assert(sizeof(RTCBuildPrimitive) == sizeof(BoxedPrimitive) &&
+                offsetof(RTCBuildPrimitive, geomID) == offsetof(BoxedPrimitive, geometry) &&
+                offsetof(RTCBuildPrimitive, upper_x) == offsetof(BoxedPrimitive, upper) &&
+                offsetof(RTCBuildPrimitive, primID) == offsetof(BoxedPrimitive, primitive));
+  Growing growing(primitives, world);
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.byteSize = sizeof(arguments);
-  arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-  arguments.maxBranchingFactor = 2;
-  arguments.maxDepth = 60;  // the traversal's stack holds that and more
+  arguments.buildQuality = quality == TreeQuality::quick ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_MEDIUM;
+  arguments.maxBranchingFactor = bvh_width;
+  arguments.maxDepth = max_tree_depth;
   arguments.minLeafSize = 1;
   arguments.maxLeafSize = max_leaf_size;
   arguments.bvh = builder.get();
-  arguments.primitives = &build.data()->primitive;
-  arguments.primitiveCount = build.size();
-  arguments.primitiveArrayCapacity = build.size();
-  arguments.createNode = create_inner;
-  arguments.setNodeChildren = set_children;
-  arguments.setNodeBounds = set_bounds;
-  arguments.createLeaf = create_leaf;
-  const auto* top = static_cast<const Node*>(rtcBuildBVH(&arguments));
+  arguments.primitives = reinterpret_cast<RTCBuildPrimitive*>(primitives.data());
+  arguments.primitiveCount = primitives.size();
+  arguments.primitiveArrayCapacity = primitives.size();
+  arguments.createNode = Growing::create_node;
+  arguments.setNodeChildren = Growing::set_children;
+  arguments.setNodeBounds = Growing::set_bounds;
+  arguments.createLeaf = Growing::create_leaf;
+  arguments.userPtr = &growing;
+  void* top = rtcBuildBVH(&arguments);
   if (!top)
     throw Failure("the tree could not be built: error " +
                   std::to_string(int(rtcGetDeviceError(device.get()))) + " of the builder");
+  const BvhChild root = growing.finish(top);
+  if (root.count == 0) return root.first;
+  BvhNode node;  // all in one leaf: give it a node
+  clear(node);
+  node.children = 1;
+  set_child(node, 0, root);
+  set_box(node, 0, all.lower, all.upper);
+  world.nodes.push_back(node);
+  return std::uint32_t(world.nodes.size() - 1);
+}
 
-  nodes.push_back(root);
-  refs.reserve(refs.size() + build.size());
-  flatten(top, bvh.root, nodes, refs);
+}  // namespace
+
+Bvh build_tree(Pages<BoxedPrimitive> primitives, TreeQuality quality, World& world) {
+  Bvh bvh{0, 0, primitives.empty(), {}, {}};
+  if (primitives.empty()) return bvh;
+
+  bvh.lower = primitives[0].lower, bvh.upper = primitives[0].upper;
+  for (const BoxedPrimitive& p : primitives) {
+    bvh.lower = {std::fmin(bvh.lower.x, p.lower.x), std::fmin(bvh.lower.y, p.lower.y),
+                 std::fmin(bvh.lower.z, p.lower.z)};
+    bvh.upper = {std::fmax(bvh.upper.x, p.upper.x), std::fmax(bvh.upper.y, p.upper.y),
+                 std::fmax(bvh.upper.z, p.upper.z)};
+  }
+  bvh.extent = std::fmax(max_abs(bvh.lower), max_abs(bvh.upper));
+  bvh.root = primitives.size() <= bvh_width ? add_small_tree(primitives, world)
+                                            : add_large_tree(primitives, quality, bvh, world);
   return bvh;
 }
 

@@ -1,20 +1,19 @@
 #pragma once
-#include <functional>
-#include <vector>
-
+#include "accel/pages.h"
 #include "accel/world.h"
 
 namespace lambent {
 
-/// A primitive and its box, as the builder wants it.
-struct BoxedPrimitive {
-  PrimitiveRef ref;
-  Vec3<float> lower, upper;
+/// A primitive and its box, in the builder's own layout.
+struct alignas(32) BoxedPrimitive {
+  Vec3<float> lower;
+  std::int32_t geometry;
+  Vec3<float> upper;
+  std::int32_t primitive;
 };
 
-/// Appends a tree over `primitives` (which it may reorder) to nodes and refs. Building is Embree's work
-/// (rtcBuildBVH, in parallel, surface area heuristic); the queries are ours.
-Bvh build_tree(std::vector<BoxedPrimitive> primitives, std::vector<BvhNode>& nodes,
-               std::vector<PrimitiveRef>& refs);
+/// Appends a tree over `primitives` to world.nodes and world.refs. Building is Embree's work (rtcBuildBVH, in
+/// parallel); the queries are ours.
+Bvh build_tree(Pages<BoxedPrimitive> primitives, TreeQuality quality, World& world);
 
 }  // namespace lambent

@@ -1,7 +1,9 @@
 #include "accel/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "accel/tree.h"
 
@@ -15,9 +17,10 @@ float round_down(double a) {
 float round_up(double a) { return -round_down(-a); }
 
 BoxedPrimitive boxed(PrimitiveRef ref, const Bounds& b) {
-  return {ref,
-          {round_down(b.lower.x), round_down(b.lower.y), round_down(b.lower.z)},
-          {round_up(b.upper.x), round_up(b.upper.y), round_up(b.upper.z)}};
+  return {{round_down(b.lower.x), round_down(b.lower.y), round_down(b.lower.z)},
+          ref.geometry,
+          {round_up(b.upper.x), round_up(b.upper.y), round_up(b.upper.z)},
+          ref.primitive};
 }
 
 /// The factor by which t scales all lengths, or 0 where it does not scale all alike.
@@ -79,7 +82,7 @@ template <class T> T* keep(std::vector<std::unique_ptr<std::vector<T>>>& store, 
 
 class Builder {
  public:
-  explicit Builder(const Scene& scene) : scene_(scene) {}
+  Builder(const Scene& scene, TreeQuality quality) : scene_(scene), quality_(quality) {}
 
   World build() {
     world_.material_transmits = std::make_unique<bool[]>(scene_.materials.size() + 1);
@@ -91,7 +94,12 @@ class Builder {
 
     world_.bvhs.emplace_back();  // the world's own, built last
     std::vector<std::int64_t> bvh_of_shape(scene_.shapes.size(), -1);
-    std::vector<BoxedPrimitive> top;
+    std::size_t at_top = 0;
+    for (const Object& object : scene_.objects) {
+      const Shape& shape = scene_.shapes[object.shape];
+      at_top += can_bake(shape, object.world_from_object, shown[object.shape]) ? primitive_count(shape) : 1;
+    }
+    Pages<BoxedPrimitive> top(at_top);
     for (const Object& object : scene_.objects) {
       const auto index = std::uint32_t(world_.objects.size());
       world_.objects.push_back({object.materials.data()});
@@ -99,21 +107,27 @@ class Builder {
       const Shape& shape = scene_.shapes[object.shape];
       if (primitive_count(shape) == 0) continue;
       if (can_bake(shape, object.world_from_object, shown[object.shape])) {
+        if (joins_others(shape)) {
+          join(shape, object.world_from_object, index);
+          continue;
+        }
         const std::int32_t geometry = add_geometry(shape, object.world_from_object);
         world_.geometries[geometry].object = index;
         add_boxes(geometry, top);
       } else {
         std::int64_t& bvh = bvh_of_shape[object.shape];
         if (bvh < 0) {
-          std::vector<BoxedPrimitive> boxes;
+          Pages<BoxedPrimitive> boxes(primitive_count(shape));
           add_boxes(add_geometry(shape, {}), boxes);
           bvh = std::int64_t(world_.bvhs.size());
-          world_.bvhs.push_back(build_tree(std::move(boxes), world_.nodes, world_.refs));
+          world_.bvhs.push_back(build_tree(std::move(boxes), quality_, world_));
         }
         add_instance(object, index, std::uint32_t(bvh), top);
       }
     }
-    world_.bvhs[0] = build_tree(std::move(top), world_.nodes, world_.refs);
+    close_joined(top);
+    world_.bvhs[0] = build_tree(std::move(top), quality_, world_);
+    lay_out_spheres();
     return std::move(world_);
   }
 
@@ -127,19 +141,65 @@ class Builder {
     return std::holds_alternative<Mesh>(shape.primitives) || uniform_scale(t) > 0;
   }
 
+  // ---- shapes of few primitives, of which a scene may have thousands: one geometry for all of a kind
+
+  template <class T> struct Joined {
+    std::vector<T> primitives;
+    std::vector<std::uint32_t> objects, materials;
+  };
+
+  static bool joins_others(const Shape& shape) {
+    return !std::holds_alternative<Mesh>(shape.primitives) && primitive_count(shape) <= 16;
+  }
+
+  template <class T> Joined<T>& joined() { return std::get<Joined<T>>(joined_); }
+
+  void join(const Shape& shape, const Transform& t, std::uint32_t object) {
+    std::visit(
+        [&](const auto& primitives) {
+          using T = typename std::decay_t<decltype(primitives)>;
+          if constexpr (!std::is_same_v<T, Mesh>) {
+            auto placed = placed_in_world(primitives, t);
+            auto& all = joined<typename decltype(placed)::value_type>();
+            for (std::size_t i = 0; i < placed.size(); ++i) {
+              all.primitives.push_back(placed[i]);
+              all.objects.push_back(object);
+              all.materials.push_back(
+                  scene_.objects[object]
+                      .materials[shape.material_of_primitive.empty() ? 0 : shape.material_of_primitive[i]]);
+            }
+          }
+        },
+        shape.primitives);
+  }
+
+  void close_joined(Pages<BoxedPrimitive>& boxes) {
+    std::apply([&](auto&... all) { (close(all, boxes), ...); }, joined_);
+  }
+  template <class T> void close(Joined<T>& all, Pages<BoxedPrimitive>& boxes) {
+    if (all.primitives.empty()) return;
+    Geometry g{};
+    g.count = std::uint32_t(all.primitives.size());
+    refer(g, std::move(all.primitives));
+    g.object_of_primitive = keep(world_.placed_numbers, std::move(all.objects));
+    g.scene_material = keep(world_.placed_numbers, std::move(all.materials));
+    world_.geometries.push_back(g);
+    add_boxes(std::int32_t(world_.geometries.size()) - 1, boxes);
+  }
+
+  // ---- shapes with a geometry of their own
+
   std::int32_t add_geometry(const Shape& shape, const Transform& t) {
     Geometry g{};
     g.material_of_primitive =
         shape.material_of_primitive.empty() ? nullptr : shape.material_of_primitive.data();
     g.count = std::uint32_t(primitive_count(shape));
-    const double scale = uniform_scale(t);
-    const Transform inverse_t = inverse(t);
-    std::visit([&](const auto& primitives) { place(primitives, t, inverse_t, scale, g); }, shape.primitives);
+    std::visit([&](const auto& primitives) { place(primitives, t, g); }, shape.primitives);
     world_.geometries.push_back(g);
     return std::int32_t(world_.geometries.size()) - 1;
   }
 
-  void place(const Mesh& mesh, const Transform& t, const Transform& inverse_t, double, Geometry& g) {
+  void place(const Mesh& mesh, const Transform& t, Geometry& g) {
     g.kind = PrimitiveKind::triangle;
     g.triangles = mesh.triangles.data();
     g.flipped = determinant(t) < 0;
@@ -151,6 +211,7 @@ class Builder {
     for (const auto& v : mesh.vertices) points.push_back(cast<float>(transform_point(t, cast<double>(v))));
     g.vertices = keep(world_.placed_points, std::move(points));
     if (mesh.normals.empty()) return;
+    const Transform inverse_t = inverse(t);
     std::vector<Vec3<float>> normals;
     normals.reserve(mesh.normals.size());
     for (const auto& n : mesh.normals) {
@@ -160,45 +221,71 @@ class Builder {
     }
     g.normals = keep(world_.placed_points, std::move(normals));
   }
-  void place(const std::vector<Sphere>& spheres, const Transform& t, const Transform&, double scale,
-             Geometry& g) {
-    g.kind = PrimitiveKind::sphere;
+  void place(const std::vector<Sphere>& spheres, const Transform& t, Geometry& g) {
     if (is_identity(t)) {
+      g.kind = PrimitiveKind::sphere;
       g.spheres = spheres.data();
-      return;
+    } else {
+      refer(g, placed_in_world(spheres, t));
     }
-    std::vector<Sphere> result;
-    for (const Sphere& s : spheres) result.push_back({transform_point(t, s.center), scale * s.radius});
-    g.spheres = keep(world_.placed_spheres, std::move(result));
   }
-  void place(const std::vector<Cone>& cones, const Transform& t, const Transform&, double scale,
-             Geometry& g) {
-    g.kind = PrimitiveKind::cone;
+  template <class T> void place(const std::vector<T>& primitives, const Transform& t, Geometry& g) {
+    refer(g, placed_in_world(primitives, t));
+  }
+
+  static std::vector<Sphere> placed_in_world(const std::vector<Sphere>& spheres, const Transform& t) {
+    const double scale = uniform_scale(t);
+    std::vector<Sphere> result;
+    result.reserve(spheres.size());
+    for (const Sphere& s : spheres) result.push_back({transform_point(t, s.center), scale * s.radius});
+    return result;
+  }
+  static std::vector<PlacedCone> placed_in_world(const std::vector<Cone>& cones, const Transform& t) {
+    const double scale = uniform_scale(t);
     std::vector<PlacedCone> result;
+    result.reserve(cones.size());
     for (const Cone& c : cones)
       result.push_back(placed({transform_point(t, c.from), transform_point(t, c.to), scale * c.radius_from,
                                scale * c.radius_to}));
-    g.cones = keep(world_.placed_cones, std::move(result));
+    return result;
   }
-  void place(const std::vector<Disc>& discs, const Transform& t, const Transform& inverse_t, double scale,
-             Geometry& g) {
-    g.kind = PrimitiveKind::disc;
+  static std::vector<Disc> placed_in_world(const std::vector<Disc>& discs, const Transform& t) {
+    const double scale = uniform_scale(t);
+    const Transform inverse_t = inverse(t);
     std::vector<Disc> result;
+    result.reserve(discs.size());
     for (const Disc& d : discs)
       result.push_back(
           {transform_point(t, d.center), normalize(transform_normal(inverse_t, d.normal)), scale * d.radius});
-    g.discs = keep(world_.placed_discs, std::move(result));
+    return result;
   }
-  void place(const std::vector<Plane>& planes, const Transform& t, const Transform& inverse_t, double,
-             Geometry& g) {
-    g.kind = PrimitiveKind::plane;
+  static std::vector<Plane> placed_in_world(const std::vector<Plane>& planes, const Transform& t) {
+    const Transform inverse_t = inverse(t);
     std::vector<Plane> result;
+    result.reserve(planes.size());
     for (const Plane& p : planes)
       result.push_back({transform_point(t, p.point), normalize(transform_normal(inverse_t, p.normal))});
-    g.planes = keep(world_.placed_planes, std::move(result));
+    return result;
   }
 
-  void add_boxes(std::int32_t geometry, std::vector<BoxedPrimitive>& boxes) {
+  void refer(Geometry& g, std::vector<Sphere> spheres) {
+    g.kind = PrimitiveKind::sphere;
+    g.spheres = keep(world_.placed_spheres, std::move(spheres));
+  }
+  void refer(Geometry& g, std::vector<PlacedCone> cones) {
+    g.kind = PrimitiveKind::cone;
+    g.cones = keep(world_.placed_cones, std::move(cones));
+  }
+  void refer(Geometry& g, std::vector<Disc> discs) {
+    g.kind = PrimitiveKind::disc;
+    g.discs = keep(world_.placed_discs, std::move(discs));
+  }
+  void refer(Geometry& g, std::vector<Plane> planes) {
+    g.kind = PrimitiveKind::plane;
+    g.planes = keep(world_.placed_planes, std::move(planes));
+  }
+
+  void add_boxes(std::int32_t geometry, Pages<BoxedPrimitive>& boxes) {
     const Geometry& g = world_.geometries[geometry];
     for (std::uint32_t i = 0; i < g.count; ++i) {
       const PrimitiveRef ref{geometry, std::int32_t(i)};
@@ -208,8 +295,8 @@ class Builder {
   }
 
   void add_instance(const Object& object, std::uint32_t index, std::uint32_t bvh,
-                    std::vector<BoxedPrimitive>& boxes) {
-    const BvhNode& root = world_.nodes[world_.bvhs[bvh].root];
+                    Pages<BoxedPrimitive>& boxes) {
+    const Bvh& root = world_.bvhs[bvh];
     Bounds b;
     for (int corner = 0; corner < 8; ++corner)
       b.add(transform_point(object.world_from_object, {double(corner & 1 ? root.upper.x : root.lower.x),
@@ -219,8 +306,25 @@ class Builder {
     world_.instances.push_back({object.world_from_object, inverse(object.world_from_object), bvh, index});
   }
 
+  void lay_out_spheres() {
+    const auto is_sphere = [&](const PrimitiveRef& ref) {
+      return ref.geometry != instance_geometry &&
+             world_.geometries[ref.geometry].kind == PrimitiveKind::sphere;
+    };
+    if (std::none_of(world_.refs.begin(), world_.refs.end(), is_sphere)) return;
+    world_.leaf_spheres.resize(world_.refs.size());
+    for (std::size_t i = 0; i < world_.refs.size(); ++i) {
+      const PrimitiveRef& ref = world_.refs[i];
+      if (!is_sphere(ref)) continue;
+      const Sphere& s = world_.geometries[ref.geometry].spheres[ref.primitive];
+      world_.leaf_spheres[i] = {float(s.center.x), float(s.center.y), float(s.center.z), float(s.radius)};
+    }
+  }
+
   const Scene& scene_;
+  TreeQuality quality_;
   World world_;
+  std::tuple<Joined<Sphere>, Joined<PlacedCone>, Joined<Disc>, Joined<Plane>> joined_;
 };
 
 }  // namespace
@@ -229,6 +333,7 @@ WorldView World::view() const {
   return {bvhs.data(),
           nodes.data(),
           refs.data(),
+          leaf_spheres.empty() ? nullptr : leaf_spheres.data(),
           geometries.data(),
           instances.data(),
           objects.data(),
@@ -237,6 +342,6 @@ WorldView World::view() const {
           material_transmits.get()};
 }
 
-World build_world(const Scene& scene) { return Builder(scene).build(); }
+World build_world(const Scene& scene, TreeQuality quality) { return Builder(scene, quality).build(); }
 
 }  // namespace lambent

@@ -39,6 +39,8 @@ struct Geometry {
   const Disc* discs = nullptr;                           ///< Unit normals.
   const Plane* planes = nullptr;                         ///< Unit normals.
   const std::uint32_t* material_of_primitive = nullptr;  ///< Null: all the first of the object's materials.
+  const std::uint32_t* object_of_primitive = nullptr;    ///< Null: all `object`'s. Otherwise
+  const std::uint32_t* scene_material = nullptr;         ///< each one's material is here.
 };
 
 struct PrimitiveRef {
@@ -47,12 +49,34 @@ struct PrimitiveRef {
 };
 inline constexpr std::int32_t instance_geometry = -1;
 
-/// A box with two children (next to each other), or a leaf with some primitives.
-struct BvhNode {
-  Vec3<float> lower;
-  std::uint32_t first;  ///< Of two children in World::nodes, or of `count` primitives in World::refs.
-  Vec3<float> upper;
-  std::uint32_t count;  ///< 0: an inner node.
+/// What a leaf holds. Leaves of one kind are asked without looking at each primitive's kind.
+enum class LeafKind : std::uint8_t {
+  triangles,  ///< Of one geometry.
+  spheres,    ///< Of any; LeafSphere has what the queries want.
+  mixed,      ///< Anything, instances too.
+};
+
+/// A child of a node: another node, or a leaf.
+struct BvhChild {
+  std::uint32_t first = 0;  ///< Of a node: its index in World::nodes. Of a leaf: its first in World::refs.
+  std::uint32_t count = 0;  ///< Primitives of a leaf; 0: a node.
+  LeafKind kind = LeafKind::mixed;
+};
+inline constexpr int bvh_width = 4, max_tree_depth = 48;
+
+/// Up to four boxes side by side. Where there are fewer children the other boxes are turned inside out.
+struct alignas(64) BvhNode {
+  float plane[6][bvh_width];  ///< Lower x, y, z of each child, then upper x, y, z.
+  std::uint32_t first[bvh_width];
+  std::uint16_t count[bvh_width];
+  LeafKind kind[bvh_width];
+  std::uint32_t children;
+};
+static_assert(sizeof(BvhNode) == 128);
+
+/// A sphere as the queries want it, beside its PrimitiveRef.
+struct LeafSphere {
+  float x, y, z, radius;
 };
 
 /// One tree. `extent` is the largest absolute coordinate in it.
@@ -60,6 +84,7 @@ struct Bvh {
   std::uint32_t root;
   float extent;
   bool empty;
+  Vec3<float> lower, upper;
 };
 
 /// A shape's tree, placed by an object.
@@ -78,6 +103,7 @@ struct WorldView {
   const Bvh* bvhs;  ///< The first is the world's own.
   const BvhNode* nodes;
   const PrimitiveRef* refs;
+  const LeafSphere* leaf_spheres;  ///< For each of refs, where there are spheres in trees; otherwise null.
   const Geometry* geometries;
   const Instance* instances;
   const ObjectRecord* objects;
@@ -91,6 +117,7 @@ struct World {
   std::vector<Bvh> bvhs;
   std::vector<BvhNode> nodes;
   std::vector<PrimitiveRef> refs;
+  std::vector<LeafSphere> leaf_spheres;
   std::vector<Geometry> geometries;
   std::vector<Instance> instances;
   std::vector<ObjectRecord> objects;
@@ -104,10 +131,17 @@ struct World {
   std::vector<std::unique_ptr<std::vector<PlacedCone>>> placed_cones;
   std::vector<std::unique_ptr<std::vector<Disc>>> placed_discs;
   std::vector<std::unique_ptr<std::vector<Plane>>> placed_planes;
+  std::vector<std::unique_ptr<std::vector<std::uint32_t>>> placed_numbers;
 
   WorldView view() const;
 };
 
-World build_world(const Scene& scene);
+/// How much work goes into the trees. The picture does not depend on it.
+enum class TreeQuality {
+  quick,     ///< Along a curve through space: built in a fraction of the time.
+  thorough,  ///< By the surface area heuristic: faster to query.
+};
+
+World build_world(const Scene& scene, TreeQuality quality = TreeQuality::thorough);
 
 }  // namespace lambent

@@ -23,14 +23,18 @@ inline namespace LAMBENT_ISA {
 /// The colour that the surface point s sends to where the ray came from.
 ///   Ia        the ambient light, already divided by R where the scene asks for it
 ///   arriving  l -> Arriving<F, C>: light l at this point, after attenuation and shadow
-///   observe   (term, light, colour): called once for each summand, in the order of the sum
+///   observe   (term, light, colour): called once for each summand, in the order of the sum; not for lights
+///   of
+///             which nothing arrives
 template <class Model, class F, class C, class Lights, class Observer = NoObserver>
 C illuminate(const Surface<F, C>& s, const C& Ia, int lights, const Lights& arriving,
              const Observer& observe = {}) {
   C I = s.ka * Ia;
   observe(Term::ambient, -1, I);
   for (int l = 0; l < lights; ++l) {
-    const Terms<C> term = Model::evaluate(s, arriving(l));
+    const Arriving<F, C> light = arriving(l);
+    if (all(is_black(light.I))) continue;  // behind the surface, in shadow or out of reach: nothing to add
+    const Terms<C> term = Model::evaluate(s, light);
     observe(Term::diffuse, l, term.diffuse);
     observe(Term::specular, l, term.specular);
     I = I + term.diffuse;

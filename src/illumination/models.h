@@ -38,5 +38,11 @@ template <class Visitor> decltype(auto) with_model(ModelId id, Visitor&& visitor
   __builtin_unreachable();
 }
 
+/// The number of a model's struct.
+template <class Model> inline constexpr ModelId id_of = ModelId(-1);
+#define LAMBENT_MODEL(name, Struct) template <> inline constexpr ModelId id_of<Struct> = ModelId::name;
+#include "illumination/models.def"
+#undef LAMBENT_MODEL
+
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -34,8 +34,8 @@ struct Corner {
 /// A material as the faces name it.
 struct Used {
   std::string name;
-  std::string_view where;  ///< In the text: where it was first named.
-  bool shown = false;      ///< A face has it.
+  std::optional<Diagnostic> where{};  ///< Where it was first named, as a warning without words.
+  bool shown = false;                 ///< A face has it.
 };
 
 std::string plural(std::size_t count, const char* one, const char* many) {
@@ -44,14 +44,18 @@ std::string plural(std::size_t count, const char* one, const char* many) {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& path) : file_(read_text_file(path)) {
-    used_.push_back({"", {}, false});
+  explicit ObjReader(const std::string& path) : pieces_(path) {
+    used_.push_back({});
     slot_of_name_[""] = 0;
   }
 
   Model read() {
-    LineReader lines(file_.text, true);
-    while (lines.next()) statement(lines.line);
+    while (pieces_.next(file_)) {
+      LineReader lines(file_.text, true);
+      while (lines.next()) statement(lines.line);
+      if (!end_ || !trim(file_.text).empty()) end_ = warning_at(file_, end_of(file_.text), {});
+      any_text_ |= !trim(file_.text).empty();
+    }
     if (errors_.empty() && triangles_.empty()) no_faces();
     if (!errors_.empty()) throw InputError(std::move(errors_));
     remark_what_was_skipped();
@@ -86,7 +90,7 @@ class ObjReader {
     if (key == "s") return smoothing_group(line, rest);
     if (key == "g" || key == "o") return;
     if (key == "p" || key == "l") {
-      if (points_and_lines_++ == 0) first_point_or_line_ = key;
+      if (points_and_lines_++ == 0) first_point_or_line_ = warning_at(file_, key, {});
       return;
     }
     if (unknown_.size() < most_warnings_of_a_kind && unknown_.insert(std::string(key)).second)
@@ -247,7 +251,7 @@ class ObjReader {
     // As the mesh will hold them: rounding may have taken the area away.
     const auto p = [&](std::uint32_t i) { return cast<double>(cast<float>(points_[i])); };
     if (cross(p(b) - p(a), p(c) - p(a)) == Vec3<double>{}) {
-      if (without_area_++ == 0) first_without_area_ = line;
+      if (without_area_++ == 0) first_without_area_ = warning_at(file_, line, {});
       return;
     }
     triangles_.push_back({indices_[a], indices_[b], indices_[c]});
@@ -259,8 +263,8 @@ class ObjReader {
   void use_material(std::string_view key, std::string_view name) {
     const auto [found, is_new] = slot_of_name_.try_emplace(std::string(name), std::uint32_t(used_.size()));
     slot_ = found->second;
-    if (is_new) used_.push_back({std::string(name), name, false});
-    if (used_[slot_].where.data() == nullptr) used_[slot_].where = key;
+    if (is_new) used_.push_back({std::string(name), warning_at(file_, name, {})});
+    if (!used_[slot_].where) used_[slot_].where = warning_at(file_, key, {});
   }
 
   /// The names on one mtllib line. A name may hold blanks, so the whole line is tried first, then word by
@@ -341,7 +345,7 @@ class ObjReader {
       }
       Material grey;
       grey.name = used.name;
-      if (used.where.data()) grey.place = place_for(used, undefined);
+      if (used.where) grey.place = place_for(used, undefined);
       materials.push_back(std::move(grey));
     }
     if (undefined > most_warnings_of_a_kind)
@@ -360,12 +364,11 @@ class ObjReader {
 
   /// Where a material that is not defined was first named; warns of it.
   Place place_for(const Used& used, std::size_t& undefined) {
-    // Each place is counted from the beginning of the file, so not for any number of them.
-    if (!used.name.empty() && undefined++ >= most_warnings_of_a_kind) return {file_.name, 0, 0};
-    if (!used.name.empty())
-      warn(used.where, "material " + in_quotes(used.name) + " is not defined; it is grey",
-           any_library_ ? "" : "the file names no material library (mtllib)");
-    return place_of(file_, used.where);
+    if (!used.name.empty() && undefined++ < most_warnings_of_a_kind)
+      warnings_.push_back(worded(*used.where,
+                                 "material " + in_quotes(used.name) + " is not defined; it is grey",
+                                 any_library_ ? "" : "the file names no material library (mtllib)"));
+    return used.where->place;
   }
 
   /// "default" for the material without a name, or the next name like it that is free.
@@ -409,23 +412,35 @@ class ObjReader {
   // ---- messages ----
 
   void no_faces() {
-    const std::string_view end = end_of(file_.text);
-    if (without_area_ > 0) return fail(first_without_area_, "no face has an area");
-    if (trim(file_.text).empty()) return fail(end, "the file is empty");
-    fail(end, "the file has no faces: it holds " + plural(positions_.size(), "vertex", "vertices") + " and " +
-                  plural(points_and_lines_, "statement", "statements") +
-                  " of points and lines, which have no surface");
+    const auto fail_at = [&](const Diagnostic& place, std::string message) {
+      add_error(worded(place, std::move(message), {}, Severity::error));
+    };
+    if (without_area_ > 0) return fail_at(first_without_area_, "no face has an area");
+    if (!any_text_) return fail_at(*end_, "the file is empty");
+    fail_at(*end_, "the file has no faces: it holds " + plural(positions_.size(), "vertex", "vertices") +
+                       " and " + plural(points_and_lines_, "statement", "statements") +
+                       " of points and lines, which have no surface");
   }
 
   void remark_what_was_skipped() {
     if (points_and_lines_ > 0)
-      warn(first_point_or_line_, plural(points_and_lines_, "statement", "statements") +
-                                     " of points and lines skipped: they have no surface");
+      warnings_.push_back(
+          worded(first_point_or_line_, plural(points_and_lines_, "statement", "statements") +
+                                           " of points and lines skipped: they have no surface"));
     if (without_area_ > 0)
-      warn(first_without_area_, plural(without_area_, "triangle", "triangles") +
-                                    " without an area left out; the first is in this face");
+      warnings_.push_back(
+          worded(first_without_area_, plural(without_area_, "triangle", "triangles") +
+                                          " without an area left out; the first is in this face"));
   }
 
+  /// What stands at `place`, whose text may be gone, and what there is to say about it.
+  static Diagnostic worded(Diagnostic place, std::string message, std::string hint = {},
+                           Severity severity = Severity::warning) {
+    place.severity = severity;
+    place.message = std::move(message);
+    place.hint = std::move(hint);
+    return place;
+  }
   void warn(std::string_view word, std::string message, std::string hint = {}) {
     warnings_.push_back(warning_at(file_, word, std::move(message), std::move(hint)));
   }
@@ -437,7 +452,10 @@ class ObjReader {
     if (errors_.size() >= most_errors) throw InputError(std::move(errors_));
   }
 
-  TextFile file_;
+  TextPieces pieces_;
+  TextFile file_;                  ///< The piece at hand; views into it do not outlive it.
+  std::optional<Diagnostic> end_;  ///< Where the text ends, as a warning without words.
+  bool any_text_ = false;
   std::vector<Diagnostic> errors_, warnings_;
 
   std::vector<Vec3<double>> positions_;
@@ -467,7 +485,7 @@ class ObjReader {
 
   std::set<std::string> unknown_;
   std::size_t points_and_lines_ = 0, without_area_ = 0;
-  std::string_view first_point_or_line_, first_without_area_;
+  Diagnostic first_point_or_line_, first_without_area_;  ///< Without words.
 };
 
 }  // namespace

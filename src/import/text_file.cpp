@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
+#include <utility>
 
 namespace lambent {
 
@@ -197,19 +197,55 @@ bool is_tiny(std::string_view word) {
   return std::int64_t(point) - std::int64_t(first) + exponent < 0;
 }
 
+using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+FileHandle open_file(const std::string& path) {
+  FileHandle file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) throw InputError(unreadable(path, "open", errno));
+  return file;
+}
+
+/// Fewer than `most` only at the end of the file.
+std::size_t read_some(const std::string& path, std::FILE* file, char* to, std::size_t most) {
+  const std::size_t count = std::fread(to, 1, most, file);
+  if (std::ferror(file)) throw InputError(unreadable(path, "read", errno));
+  return count;
+}
+
+constexpr std::string_view utf8_mark = "\xef\xbb\xbf";
+bool is_utf16(std::string_view bytes) {
+  return bytes.starts_with("\xfe\xff") || bytes.starts_with("\xff\xfe");
+}
+
+void must_be_text(const TextFile& file) {
+  if (const auto zero = file.text.find('\0'); zero != std::string::npos)
+    throw InputError(error_at(file, std::string_view(file.text).substr(zero, 1),
+                              "not a text file: it holds a zero byte",
+                              "UTF-16 needs a byte order mark at its beginning"));
+}
+
+/// Behind the last line break that no backslash takes away; 0 where there is none.
+std::size_t last_line_end(std::string_view text) {
+  for (std::size_t end = text.rfind('\n'); end != std::string_view::npos && end > 0;
+       end = text.rfind('\n', end - 1)) {
+    std::size_t last = end;
+    while (last > 0 && (text[last - 1] == '\r' || text[last - 1] == ' ' || text[last - 1] == '\t')) --last;
+    if (last == 0 || text[last - 1] != '\\') return end + 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) throw InputError(unreadable(path, "open", errno));
+  const FileHandle file = open_file(path);
   std::error_code ignored;
   const auto size = std::filesystem::file_size(path, ignored);  // a guess only: pipes have none
   std::string text;
   std::size_t used = 0;
   text.resize(ignored ? 65536 : std::size_t(size) + 1);
   for (;;) {
-    used += std::fread(text.data() + used, 1, text.size() - used, file.get());
-    if (std::ferror(file.get())) throw InputError(unreadable(path, "read", errno));
+    used += read_some(path, file.get(), text.data() + used, text.size() - used);
     if (used < text.size()) break;
     text.resize(2 * text.size());
   }
@@ -219,24 +255,54 @@ std::string read_file(const std::string& path) {
 
 TextFile text_file(std::string name, std::string bytes) {
   TextFile file{std::move(name), {}};
-  const auto begins_with = [&](std::string_view mark) {
-    return std::string_view(bytes).substr(0, mark.size()) == mark;
-  };
-  if (begins_with("\xfe\xff") || begins_with("\xff\xfe")) {
+  if (is_utf16(bytes)) {
     file.text = utf8_from_utf16(std::string_view(bytes).substr(2), bytes[0] == '\xfe');
   } else {
-    if (begins_with("\xef\xbb\xbf")) bytes.erase(0, 3);
+    if (bytes.starts_with(utf8_mark)) bytes.erase(0, utf8_mark.size());
     file.text = valid_utf8(std::move(bytes));
   }
   if (file.text.find('\n') == std::string::npos) std::replace(file.text.begin(), file.text.end(), '\r', '\n');
-  if (const auto zero = file.text.find('\0'); zero != std::string::npos)
-    throw InputError(error_at(file, std::string_view(file.text).substr(zero, 1),
-                              "not a text file: it holds a zero byte",
-                              "UTF-16 needs a byte order mark at its beginning"));
+  must_be_text(file);
   return file;
 }
 
 TextFile read_text_file(const std::string& path) { return text_file(path, read_file(path)); }
+
+TextPieces::TextPieces(const std::string& path, std::size_t piece_size)
+    : path_(path), piece_size_(piece_size), file_(open_file(path)) {}
+
+bool TextPieces::read_more(std::size_t most) {
+  const std::size_t used = bytes_.size();
+  bytes_.resize(used + most);
+  bytes_.resize(used + read_some(path_, file_.get(), bytes_.data() + used, most));
+  if (bytes_.size() < used + most) ended_ = true;
+  return !ended_;
+}
+
+bool TextPieces::next(TextFile& piece) {
+  const bool first = !std::exchange(begun_, true);
+  std::size_t end = 0;
+  while (!ended_ && end == 0) {
+    read_more(std::max(piece_size_, bytes_.size()));
+    if (first && is_utf16(bytes_))  // rare, and line breaks are harder to find: in one piece
+      while (read_more(bytes_.size())) {
+      }
+    if (!ended_) end = last_line_end(bytes_);
+  }
+  if (ended_) end = bytes_.size();
+  if (!first && end == 0) return false;
+  std::string rest = bytes_.substr(end);
+  bytes_.resize(end);
+  if (first) {
+    piece = text_file(path_, std::move(bytes_));
+  } else {
+    piece = {path_, valid_utf8(std::move(bytes_)), next_line_};
+    must_be_text(piece);
+  }
+  bytes_ = std::move(rest);
+  next_line_ += int(std::count(piece.text.begin(), piece.text.end(), '\n'));
+  return true;
+}
 
 bool LineReader::next() {
   if (rest_.empty()) return false;
@@ -323,10 +389,9 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
 Place place_of(const TextFile& file, std::string_view word) {
   const std::string_view text = file.text;
   const std::size_t at = offset_in(file, word);
-  std::size_t breaks = 0;
-  for (std::size_t i = text.find('\n'); i < at; i = text.find('\n', i + 1)) ++breaks;
+  const auto breaks = std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n');
   const auto [line, offset] = line_around(text, at);
-  return {file.name, int(breaks) + 1, int(count_characters(line.substr(0, offset))) + 1};
+  return {file.name, file.first_line + int(breaks), int(count_characters(line.substr(0, offset))) + 1};
 }
 
 std::string in_quotes(std::string_view word) {

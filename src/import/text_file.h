@@ -16,6 +16,8 @@
 //   }
 
 #include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,10 +30,11 @@ namespace lambent {
 /// The whole file. Throws InputError ("cannot open ...: No such file or directory").
 std::string read_file(const std::string& path);
 
-/// A file's text as valid UTF-8 without a byte order mark.
+/// A file's text, or a piece of it, as valid UTF-8 without a byte order mark.
 struct TextFile {
   std::string name;  ///< As it was given; it stands in messages.
   std::string text;
+  int first_line = 1;  ///< The number of the text's first line.
 };
 
 /// The file, converted: UTF-16 is known by its byte order mark, and bytes that are no UTF-8 are taken as
@@ -40,6 +43,28 @@ struct TextFile {
 TextFile read_text_file(const std::string& path);
 /// The same from bytes in memory.
 TextFile text_file(std::string name, std::string bytes);
+
+/// The same file piece by piece, so that a large one never lies in memory as a whole. A piece ends with a
+/// line that no backslash joins to the next.
+class TextPieces {
+ public:
+  /// Throws InputError where there is no such file.
+  explicit TextPieces(const std::string& path, std::size_t piece_size = std::size_t(1) << 18);
+
+  /// Replaces `piece` by the next one, at least one of them, though it be empty; false at the end of the
+  /// file. Throws InputError where the file cannot be read or is not text.
+  bool next(TextFile& piece);
+
+ private:
+  bool read_more(std::size_t most);
+
+  std::string path_;
+  std::size_t piece_size_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::string bytes_;  ///< Read, and not yet handed out.
+  bool begun_ = false, ended_ = false;
+  int next_line_ = 1;
+};
 
 /// Walks over the lines of a text, which must outlive it. Lines end with LF, CR LF or the end of the text.
 class LineReader {

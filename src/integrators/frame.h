@@ -35,13 +35,27 @@ struct RayCounts {
   std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0;
 };
 
+/// A query, as it was asked.
+enum class RayKind : std::uint32_t { eye, scattered, shadow };
+struct AskedRay {
+  float ox, oy, oz, dx, dy, dz;
+  float t_far;  ///< Shadow rays: the way to the light. Otherwise infinity.
+  RayKind kind;
+};
+/// Whoever wants to know which queries a picture asks, in the order in which they are asked. Called by every
+/// thread that renders.
+struct RayListener {
+  void* self;
+  void (*asked)(void* self, const AskedRay& ray);
+};
+
 struct Frame {
   WorldView world;
+  const RayListener* listener = nullptr;  ///< Null: nobody.
   bool any_transmits;
   CameraRecord camera;
   int width, height;            ///< Of the picture, in pixels.
-  int film_width, film_height;  ///< Of the film: the picture's, or one more each with Pattern::corners.
-  const Vec2<double>* pattern;
+  const Vec2<double>* pattern;  ///< Where a pixel's `samples` lie, from its upper left corner.
   int samples;
   const AnyLight* lights;
   int light_count;
@@ -50,15 +64,23 @@ struct Frame {
   Rgb ambient, background;
   double minimum_distance;
   WhittedSettings whitted;
-  float* film;  ///< film_width * film_height colours, row 0 on top.
 };
 
-/// A rectangle of the film, its upper ends not included.
-struct Tile {
-  int x0, y0, x1, y1;
+struct Pixel {
+  std::int32_t x, y;
 };
 
-/// Columns of equal length that grow together; a struct of arrays says which they are by `columns(f)`.
+/// Some pixels of the film, and which of their samples to take: the pattern's from `first_sample` up to
+/// `end_sample`, that one not included.
+struct PixelTask {
+  const Pixel* pixels;
+  std::uint32_t count;
+  int first_sample, end_sample;
+  double* sums;  ///< color_channels for each pixel: the samples' colours are added to it, in their order.
+};
+
+/// Columns of equal length that grow together; a struct of arrays says which they are by `columns(f)`. They
+/// may be read and written a packet beyond their length.
 template <class T> struct Column {
   T* data = nullptr;
   T& operator[](std::size_t i) const { return data[i]; }
@@ -67,7 +89,7 @@ template <class T> struct Column {
 /// Rays on their way, and what became of them.
 struct RayQueue {
   std::uint32_t count = 0, capacity = 0;
-  Column<double> ox, oy, oz;              ///< Origin: the surface point itself.
+  Column<double> ox, oy, oz;              ///< Origin: the surface point itself, lifted.
   Column<double> dx, dy, dz;              ///< Unit direction.
   Column<double> R;                       ///< Distance from the eye to the origin, over all bounces.
   Column<float> qx, qy, qz;               ///< Where the query starts: off the surface.
@@ -75,44 +97,18 @@ struct RayQueue {
   Column<std::uint32_t> sample;           ///< Which sample of the batch.
   Column<float> t;                        ///< Found: distance,
   Column<std::int32_t> instance, geometry, primitive;  ///< and which primitive; geometry -1: none.
+  Column<std::uint32_t> material;                      ///< Of that primitive,
+  Column<std::uint8_t> group;                          ///< and what it goes together with.
+  Column<std::uint32_t> order;                         ///< The rays that hit something, group by group.
 
   template <class F> void columns(F f) {
     f(ox), f(oy), f(oz), f(dx), f(dy), f(dz), f(R), f(qx), f(qy), f(qz);
     for (auto& w : weight) f(w);
-    f(sample), f(t), f(instance), f(geometry), f(primitive);
+    f(sample), f(t), f(instance), f(geometry), f(primitive), f(material), f(group), f(order);
   }
 };
 
-/// Surface points that rays have hit.
-struct HitQueue {
-  std::uint32_t count = 0, capacity = 0;
-  Column<double> Px, Py, Pz, Nx, Ny, Nz, Vx, Vy, Vz;  ///< N on V's side.
-  Column<double> Gx, Gy, Gz;                          ///< Geometric normal, on V's side.
-  Column<double> R;                                   ///< Distance from the eye, over all bounces.
-  Column<double> sx, sy, sz;                          ///< Where rays start that leave on V's side,
-  Column<double> bx, by, bz;                          ///< and those that go through.
-  Column<std::uint32_t> ray, material;
-  Column<std::uint8_t> outside;  ///< Whether V is on the outside.
-  Column<std::uint32_t> order;   ///< The hits' numbers, model by model.
-
-  template <class F> void columns(F f) {
-    f(Px), f(Py), f(Pz), f(Nx), f(Ny), f(Nz), f(Vx), f(Vy), f(Vz), f(Gx), f(Gy), f(Gz), f(R), f(sx), f(sy),
-        f(sz), f(bx), f(by), f(bz);
-    f(ray), f(material), f(outside), f(order);
-  }
-};
-
-/// How much of each light arrives at each hit; entry light * hits + hit.
-struct LightQueue {
-  std::uint32_t capacity = 0;
-  Column<double>
-      passes[color_channels];  ///< 1: nothing in the way, 0: blocked; between: through transmitting surfaces.
-  template <class F> void columns(F f) {
-    for (auto& p : passes) f(p);
-  }
-};
-
-/// Sums over samples and pixels.
+/// The colours of a batch of samples.
 struct ColorQueue {
   std::uint32_t capacity = 0;
   Column<double> color[color_channels];
@@ -121,28 +117,26 @@ struct ColorQueue {
   }
 };
 
-/// One thread's memory; it grows as needed and is used again from tile to tile. grow() is not a kernel's
+/// One thread's memory; it grows as needed and is used again from task to task. grow() is not a kernel's
 /// code, so that no allocation is compiled for an instruction set.
 struct Scratch {
   RayQueue rays, next_rays;
-  HitQueue hits;
-  LightQueue lights;
-  ColorQueue samples, pixels;
+  ColorQueue samples;
+  Column<std::uint32_t> open;  ///< For each light and packet of a block a bit for each lane that it reaches.
 
   Scratch() = default;
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   ~Scratch();
   static void grow(RayQueue& queue, std::uint32_t capacity);
-  static void grow(HitQueue& queue, std::uint32_t capacity);
-  static void grow(LightQueue& queue, std::uint32_t capacity);
   static void grow(ColorQueue& queue, std::uint32_t capacity);
+  static void grow(Column<std::uint32_t>& column, std::uint32_t capacity);
 };
 
 /// The Whitted integrator, compiled for one instruction set.
 struct Kernel {
   const char* isa;
-  void (*render_tile)(const Frame& frame, const Tile& tile, Scratch& scratch, RayCounts& counts);
+  void (*render)(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts);
 };
 
 }  // namespace lambent

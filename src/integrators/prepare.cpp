@@ -56,14 +56,10 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   const bool corners = scene.image.pattern == Pattern::corners;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
-  frame.film_width = frame.width + corners;
-  frame.film_height = frame.height + corners;
   prepared->pattern =
       corners ? std::vector<Vec2<double>>{{0, 0}} : sample_pattern(scene.image.samples, scene.image.filter);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
-  prepared->film.resize(std::size_t(frame.film_width) * frame.film_height * color_channels);
-  frame.film = prepared->film.data();
 
   for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();

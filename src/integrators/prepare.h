@@ -13,7 +13,6 @@ struct PreparedFrame {
   std::vector<Vec2<double>> pattern;
   std::vector<AnyLight> lights;
   std::vector<MaterialRecord> materials;
-  std::vector<float> film;
 };
 
 /// Lays a scene out for the kernels; builds its trees.

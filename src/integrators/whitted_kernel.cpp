@@ -3,17 +3,20 @@
 //   colour of a ray = emission + I + reflect * (colour along the mirror ray) + transmit * (colour along the
 //   refracted ray)
 //
-// with I the equation of equation.h. Rays of a tile are followed level by level: all eye rays, then all that
-// these threw, and so on; a ray's colour is added to its sample with the product of the factors on its way.
-// Per sample the order of the sum is fixed: level by level, rays in the order of those that threw them, the
-// mirror ray before the refracted one.
+// with I the equation of equation.h. Rays are followed level by level: all eye rays of a batch of samples,
+// then all that these threw, and so on; a ray's colour is added to its sample with the product of the factors
+// on its way. On each level the rays that hit something are sorted into groups, one for each kind of
+// primitive and illumination model, and what happens at a hit happens to a packet of hits of one group, from
+// the surface point to the rays that leave it.
+//
+// Per sample the order of the sum is fixed: level by level; rays that hit nothing first, then group by group;
+// within a group in the order in which the rays were thrown, the mirror ray before the refracted one.
 //
 // This file is compiled once for each instruction set.
 
 #include "accel/surface.h"
 #include "illumination/equation.h"
 #include "integrators/frame.h"
-#include "math/pack.h"
 
 namespace lambent {
 inline namespace LAMBENT_ISA {
@@ -21,93 +24,96 @@ namespace {
 
 // Queries run in float, shading in double: an error of R.V counts n times in (R.V)^n, so float could not keep
 // 1e-6 where n >= 32.
-using QueryPack = Pack<float, native_float_lanes>;
-using ShadePack = Pack<double, native_float_lanes / 2>;
-constexpr int query_lanes = lanes_of<QueryPack>, shade_lanes = lanes_of<ShadePack>;
+constexpr int lanes = native_float_lanes;
+using Query = Pack<float, lanes>;
+using F = Pack<double, lanes>;
+using C = Color<F>;
+constexpr int beam = 4;  // packets of eye or shadow rays that go through the tree together
+using Truth = MaskOf<F>;
 
-constexpr std::uint32_t batch_size = 2048;         // samples that are followed together
-constexpr std::uint32_t light_entries = 1u << 18;  // hits * lights that are kept at a time
+// All that is done to a packet of hits in one piece of code, so that it stays in registers.
+#define LAMBENT_FLATTEN __attribute__((flatten))
 
-template <class T>
-Vec3<double> at(const Column<T>& x, const Column<T>& y, const Column<T>& z, std::uint32_t i) {
-  return {x[i], y[i], z[i]};
-}
-inline void put(const Vec3<double>& v, const Column<double>& x, const Column<double>& y,
-                const Column<double>& z, std::uint32_t i) {
-  x[i] = v.x, y[i] = v.y, z[i] = v.z;
-}
+constexpr std::uint32_t batch_size =
+    1024;  // samples that are followed together: what they need fits the cache
 
-inline void push_ray(RayQueue& rays, const Vec3<double>& o, const Vec3<double>& start, const Vec3<double>& d,
-                     double R, const Rgb& weight, std::uint32_t sample) {
-  if (rays.count == rays.capacity) Scratch::grow(rays, rays.capacity * 2 + batch_size);
-  const std::uint32_t i = rays.count++;
-  put(o, rays.ox, rays.oy, rays.oz, i);
-  put(d, rays.dx, rays.dy, rays.dz, i);
-  rays.qx[i] = float(start.x), rays.qy[i] = float(start.y), rays.qz[i] = float(start.z);
-  rays.R[i] = R;
-  for (int c = 0; c < color_channels; ++c) rays.weight[c][i] = weight[c];
-  rays.sample[i] = sample;
+constexpr int kinds = int(PrimitiveKind::instance);
+constexpr int group_count = kinds * 2 * model_count;
+constexpr std::uint8_t no_group = 255;
+static_assert(group_count < no_group);
+
+Vec3<Query> to_query(const Vec3<F>& v) {
+  return {number_cast<float>(v.x), number_cast<float>(v.y), number_cast<float>(v.z)};
 }
 
-/// One tile on its way through the stages.
-struct TileWork {
+/// A task on its way through the stages.
+struct Work {
   const Frame& frame;
-  const Tile& tile;
+  const PixelTask& task;
   Scratch& scratch;
   RayCounts& counts;
 
-  int width() const { return tile.x1 - tile.x0; }
-  std::uint32_t pixel_count() const { return std::uint32_t(width()) * std::uint32_t(tile.y1 - tile.y0); }
-
   void run() {
-    const std::uint64_t samples = std::uint64_t(pixel_count()) * frame.samples;
-    start_pixels();
+    if (scratch.samples.capacity == 0) {
+      Scratch::grow(scratch.samples, batch_size);
+      Scratch::grow(scratch.rays, batch_size);
+      Scratch::grow(scratch.next_rays, batch_size);
+      Scratch::grow(scratch.open, std::uint32_t(frame.light_count) * beam);
+    }
+    const std::uint64_t samples = std::uint64_t(task.count) * samples_per_pixel();
     for (std::uint64_t first = 0; first < samples; first += batch_size) {
       const auto count = std::uint32_t(min<std::uint64_t>(batch_size, samples - first));
       throw_eye_rays(first, count);
       for (int depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
+        sort_into_groups();
+        if (depth == 1) counts.eye_hits += hit_count();
         scratch.next_rays.count = 0;
-        for (std::uint32_t ray = 0; ray < scratch.rays.count;) {
-          ray = gather_hits(ray);
-          if (depth == 1) counts.eye_hits += scratch.hits.count;
-          look_at_lights();
-          shade();
-          if (depth < frame.whitted.max_depth) follow();
-        }
+        for (int group = 0; group < group_count; ++group)
+          if (group_first[group] < group_first[group + 1])
+            shade_group(group, depth < frame.whitted.max_depth);
         RayQueue rays = scratch.rays;
         scratch.rays = scratch.next_rays;
         scratch.next_rays = rays;
       }
       add_to_pixels(first, count);
     }
-    develop();
   }
+
+  int samples_per_pixel() const { return task.end_sample - task.first_sample; }
 
   // ---- eye rays
 
-  void start_pixels() {
-    if (scratch.pixels.capacity < pixel_count()) Scratch::grow(scratch.pixels, pixel_count());
-    if (scratch.samples.capacity < batch_size) Scratch::grow(scratch.samples, batch_size);
-    for (auto& channel : scratch.pixels.color)
-      for (std::uint32_t i = 0; i < pixel_count(); ++i) channel[i] = 0;
-  }
-
-  void throw_eye_rays(std::uint64_t first, std::uint32_t count) {
-    for (auto& channel : scratch.samples.color)
-      for (std::uint32_t i = 0; i < count; ++i) channel[i] = 0;
-    scratch.rays.count = 0;
+  LAMBENT_FLATTEN void throw_eye_rays(std::uint64_t first, std::uint32_t count) {
+    RayQueue& rays = scratch.rays;
+    rays.count = count;
+    auto pixel = std::uint32_t(first / samples_per_pixel());
+    int sample = task.first_sample + int(first % samples_per_pixel());
+    for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
+      rays.ox[i] = task.pixels[pixel].x + frame.pattern[sample].x;
+      rays.oy[i] = task.pixels[pixel].y + frame.pattern[sample].y;
+      rays.sample[i] = i;
+      if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
+    }
     const CameraRecord& camera = frame.camera;
-    const double half_width = 0.5 * frame.width, half_height = 0.5 * frame.height;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto pixel = std::uint32_t((first + i) / frame.samples);
-      const Vec2<double>& point = frame.pattern[(first + i) % frame.samples];
-      const double x = (tile.x0 + int(pixel % width()) + point.x - half_width) / half_height;
-      const double y = (half_height - (tile.y0 + int(pixel / width()) + point.y)) / half_height;
-      const Vec3<double> aside = x * camera.right + y * camera.up;
-      const Vec3<double> o = camera.eye + camera.spread_of_origins * aside;
-      push_ray(scratch.rays, o, o, normalize(camera.forward + camera.spread_of_directions * aside), 0,
-               grey(1.0), i);
+    const F half_width(0.5 * frame.width), half_height(0.5 * frame.height), per_unit(2.0 / frame.height);
+    const Vec3<F> right = broadcast<F>(camera.right), up = broadcast<F>(camera.up),
+                  forward = broadcast<F>(camera.forward), eye = broadcast<F>(camera.eye);
+    for (std::uint32_t i = 0; i < count; i += lanes) {
+      const F x = (F::load(&rays.ox[i]) - half_width) * per_unit,
+              y = (half_height - F::load(&rays.oy[i])) * per_unit;
+      const Vec3<F> aside = x * right + y * up;
+      const Vec3<F> o = eye + F(camera.spread_of_origins) * aside,
+                    d = normalize(forward + F(camera.spread_of_directions) * aside);
+      o.x.store(&rays.ox[i]), o.y.store(&rays.oy[i]), o.z.store(&rays.oz[i]);
+      d.x.store(&rays.dx[i]), d.y.store(&rays.dy[i]), d.z.store(&rays.dz[i]);
+      const Vec3<Query> q = to_query(o);
+      q.x.store(&rays.qx[i]), q.y.store(&rays.qy[i]), q.z.store(&rays.qz[i]);
+      F(0.0).store(&rays.R[i]);
+      for (int c = 0; c < color_channels; ++c) {
+        F(1.0).store(&rays.weight[c][i]);
+        F(0.0).store(&scratch.samples.color[c][i]);
+      }
     }
     counts.eye += count;
   }
@@ -118,232 +124,83 @@ struct TileWork {
   /// one.
   void trace(bool coherent) {
     RayQueue& rays = scratch.rays;
-    std::uint32_t i = 0;
+    if (frame.listener) tell(rays, coherent ? RayKind::eye : RayKind::scattered);
     if (coherent)
-      for (; i + query_lanes <= rays.count; i += query_lanes) trace_at<QueryPack>(rays, i);
-    for (; i < rays.count; ++i) trace_at<float>(rays, i);
+      for (std::uint32_t i = 0; i < rays.count; i += beam * lanes) trace_packets(rays, i);
+    else
+      for (std::uint32_t i = 0; i < rays.count; ++i) trace_one(rays, i);
   }
 
-  template <class F> void trace_at(RayQueue& rays, std::uint32_t first) const {
-    Vec3<F> o, d;
-    for (int k = 0; k < lanes_of<F>; ++k) {
-      const std::uint32_t i = first + k;
-      set_lane(o.x, k, rays.qx[i]), set_lane(o.y, k, rays.qy[i]), set_lane(o.z, k, rays.qz[i]);
-      set_lane(d.x, k, float(rays.dx[i])), set_lane(d.y, k, float(rays.dy[i])),
-          set_lane(d.z, k, float(rays.dz[i]));
-    }
-    Closest<F> hit{F(__builtin_inff())};
-    find_closest(frame.world, QueryRay<F>(o, d), MaskOf<F>(true), hit);
-    for (int k = 0; k < lanes_of<F>; ++k) {
-      const std::uint32_t i = first + k;
-      rays.t[i] = lane(hit.t, k);
-      rays.instance[i] = lane(hit.ids.instance, k);
-      rays.geometry[i] = lane(hit.ids.geometry, k);
-      rays.primitive[i] = lane(hit.ids.primitive, k);
-    }
-  }
-
-  /// Collects hits from ray `first` on, as many as the lights' memory allows, and gives the others the
-  /// background. Returns the first ray that it did not look at.
-  std::uint32_t gather_hits(std::uint32_t first) {
-    const RayQueue& rays = scratch.rays;
-    HitQueue& hits = scratch.hits;
-    const std::uint32_t room = max(64u, light_entries / std::uint32_t(max(1, frame.light_count)));
-    const std::uint32_t last = min(rays.count, first + min(room, batch_size));
-    if (hits.capacity < last - first) Scratch::grow(hits, last - first);
-    hits.count = 0;
-    for (std::uint32_t i = first; i < last; ++i) {
-      if (rays.geometry[i] < 0) add(i, frame.background);
-      else add_hit(hits, rays, i);
-    }
-    sort_by_model(hits);
-    return last;
-  }
-
-  void add_hit(HitQueue& hits, const RayQueue& rays, std::uint32_t i) const {
-    const Vec3<double> o = at(rays.ox, rays.oy, rays.oz, i), d = at(rays.dx, rays.dy, rays.dz, i);
-    const SurfacePoint s =
-        surface_at(frame.world, {rays.instance[i], rays.geometry[i], rays.primitive[i]}, o, d, rays.t[i]);
-    const std::uint32_t h = hits.count++;
-    const Vec3<double> V = -d;
-    const bool outside = dot(s.Ng, V) >= 0;
-    const double side = outside ? 1.0 : -1.0;
-    const Vec3<double> G = side * s.Ng;
-    put(s.P, hits.Px, hits.Py, hits.Pz, h);
-    put(side * s.N, hits.Nx, hits.Ny, hits.Nz, h);
-    put(V, hits.Vx, hits.Vy, hits.Vz, h);
-    put(G, hits.Gx, hits.Gy, hits.Gz, h);
-    // The lift is towards the outside of a convex surface; seen from inside, the point is where it is.
-    put(s.P + (outside ? s.lift : Vec3<double>{}) + s.offset * G, hits.sx, hits.sy, hits.sz, h);
-    put(s.P - s.offset * G, hits.bx, hits.by, hits.bz, h);
-    hits.R[h] = rays.R[i] + s.t;
-    hits.ray[h] = i;
-    hits.material[h] = s.material;
-    hits.outside[h] = outside;
-  }
-
-  void sort_by_model(HitQueue& hits) const {
-    std::uint32_t next = 0;
-    for (int model = 0; model < model_count; ++model)
-      for (std::uint32_t h = 0; h < hits.count; ++h)
-        if (frame.materials[hits.material[h]].model == model) hits.order[next++] = h;
-  }
-
-  // ---- lights and shadows
-
-  /// Decides for each hit and light how much of the light passes. No shadow ray is thrown where the light is
-  /// behind the surface (N.L <= 0) or dark in this direction.
-  void look_at_lights() {
-    const HitQueue& hits = scratch.hits;
-    LightQueue& lights = scratch.lights;
-    const std::uint32_t entries = hits.count * std::uint32_t(frame.light_count);
-    if (lights.capacity < entries) Scratch::grow(lights, entries);
-    for (int l = 0; l < frame.light_count; ++l) {
-      ShadowPacket packet;
-      for (std::uint32_t h = 0; h < hits.count; ++h) {
-        const std::uint32_t entry = std::uint32_t(l) * hits.count + h;
-        const auto light = sample_light<double>(l, at(hits.Px, hits.Py, hits.Pz, h));
-        const bool lit = dot(at(hits.Nx, hits.Ny, hits.Nz, h), light.L) > 0 && !is_black(light.I);
-        set_passes(entry, lit ? grey(1.0) : Rgb{});
-        if (lit && frame.whitted.shadows) packet.add(h, entry, light.L, light.r, hits);
-        if (packet.count == query_lanes) cast_shadows(packet);
-      }
-      cast_shadows(packet);
-    }
-  }
-
-  template <class F> LightSample<F, Color<F>> sample_light(int l, const Vec3<F>& P) const {
-    LightSample<F, Color<F>> result;
-    with_light(frame.lights[l], [&](const auto& light) { result = sample(light, P, F(0.5), F(0.5)); });
-    return result;
-  }
-
-  void set_passes(std::uint32_t entry, const Rgb& share) {
-    for (int c = 0; c < color_channels; ++c) scratch.lights.passes[c][entry] = share[c];
-  }
-
-  /// Shadow rays that wait for company. The lanes beyond `count` are masked out.
-  struct ShadowPacket {
+  /// `beam` packets from ray `first` on, together.
+  void trace_packets(RayQueue& rays, std::uint32_t first) const {
+    QueryRay<Query> ray[beam];
+    MaskOf<Query> active[beam];
+    Closest<Query> hit[beam];
     int count = 0;
-    std::uint32_t entry[query_lanes];
-    Vec3<QueryPack> o, d;
-    QueryPack t_far;
-    void add(std::uint32_t h, std::uint32_t e, const Vec3<double>& L, double r, const HitQueue& hits) {
-      entry[count] = e;
-      set_lane(o.x, count, float(hits.sx[h])), set_lane(o.y, count, float(hits.sy[h])),
-          set_lane(o.z, count, float(hits.sz[h]));
-      set_lane(d.x, count, float(L.x)), set_lane(d.y, count, float(L.y)), set_lane(d.z, count, float(L.z));
-      set_lane(t_far, count, float(r));
-      ++count;
+    for (std::uint32_t i = first; i < rays.count && count < beam; i += lanes, ++count) {
+      ray[count] =
+          QueryRay<Query>({Query::load(&rays.qx[i]), Query::load(&rays.qy[i]), Query::load(&rays.qz[i])},
+                          to_query({F::load(&rays.dx[i]), F::load(&rays.dy[i]), F::load(&rays.dz[i])}));
+      active[count] = first_lanes<float>(rays.count - i);
+      hit[count] = {Query(__builtin_inff())};
     }
-  };
-
-  void cast_shadows(ShadowPacket& packet) {
-    if (packet.count == 0) return;
-    MaskOf<QueryPack> active(false);
-    for (int k = 0; k < packet.count; ++k) set_lane(active, k, true);
-    const bool all_opaque = !frame.any_transmits || !frame.whitted.colored_shadows;
-    const auto blocked =
-        find_occluded(frame.world, QueryRay<QueryPack>(packet.o, packet.d), active, packet.t_far, all_opaque);
-    for (int k = 0; k < packet.count; ++k) {
-      if (lane(blocked, k)) set_passes(packet.entry[k], Rgb{});
-      else if (!all_opaque) set_passes(packet.entry[k], transmittance(packet, k));
-    }
-    counts.shadow += packet.count;
-    packet.count = 0;
-  }
-
-  /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
-  /// order in which the ray meets them.
-  Rgb transmittance(const ShadowPacket& packet, int k) const {
-    QueryRay<float> ray({lane(packet.o.x, k), lane(packet.o.y, k), lane(packet.o.z, k)},
-                        {lane(packet.d.x, k), lane(packet.d.y, k), lane(packet.d.z, k)});
-    const Vec3<double> d = normalize(cast<double>(ray.d));
-    double left = lane(packet.t_far, k);
-    Rgb result = grey(1.0);
-    for (;;) {
-      Closest<float> hit{float(left)};
-      find_closest(frame.world, ray, true, hit);
-      if (hit.ids.geometry < 0) return result;
-      const SurfacePoint s = surface_at(frame.world, hit.ids, cast<double>(ray.o), d, hit.t);
-      result = result * frame.materials[s.material].transmit;
-      if (is_black(result)) return result;
-      const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
-      const Vec3<double> next = s.P + side * s.offset * s.Ng;
-      left = left - max(s.t, 0.0);
-      if (!(left > 0)) return result;
-      ray.o = cast<float>(next);
-    }
-  }
-
-  // ---- the equation
-
-  void shade() {
-    const HitQueue& hits = scratch.hits;
-    for (std::uint32_t h = 0; h < hits.count; ++h) {
-      const MaterialRecord& m = frame.materials[hits.material[h]];
-      if (m.emits) add(hits.ray[h], m.emission);
-    }
-    for (std::uint32_t first = 0; first < hits.count;) {
-      const int model = frame.materials[hits.material[hits.order[first]]].model;
-      std::uint32_t last = first + 1;
-      while (last < hits.count && last < first + shade_lanes &&
-             frame.materials[hits.material[hits.order[last]]].model == model)
-        ++last;
-      with_model(ModelId(model),
-                 [&]<class Model>() { shade_packet<Model>(frame.fading[model], first, int(last - first)); });
-      first = last;
-    }
-  }
-
-  /// Evaluates the equation for `count` hits of one model, one in each lane; lanes left over repeat the last.
-  template <class Model> void shade_packet(const FadingRecord& fading, std::uint32_t first, int count) {
-    using F = ShadePack;
-    using C = Color<F>;
-    const HitQueue& hits = scratch.hits;
-    const LightQueue& lights = scratch.lights;
-    std::uint32_t hit[shade_lanes];
-    Surface<F, C> s;
-    Vec3<F> P;
-    F R;
-    for (int k = 0; k < shade_lanes; ++k) {
-      const std::uint32_t h = hit[k] = hits.order[first + min(k, count - 1)];
-      set_lane(P.x, k, hits.Px[h]), set_lane(P.y, k, hits.Py[h]), set_lane(P.z, k, hits.Pz[h]);
-      set_lane(s.N.x, k, hits.Nx[h]), set_lane(s.N.y, k, hits.Ny[h]), set_lane(s.N.z, k, hits.Nz[h]);
-      set_lane(s.V.x, k, hits.Vx[h]), set_lane(s.V.y, k, hits.Vy[h]), set_lane(s.V.z, k, hits.Vz[h]);
-      set_lane(R, k, hits.R[h]);
-      const MaterialRecord& m = frame.materials[hits.material[h]];
-      for (int c = 0; c < color_channels; ++c) {
-        set_lane(s.ka[c], k, m.ambient[c]), set_lane(s.kd[c], k, m.diffuse[c]),
-            set_lane(s.ks[c], k, m.specular[c]);
-      }
-      set_lane(s.n, k, m.shininess);
-      for (int i = 0; i < max_model_parameters; ++i) set_lane(s.own[i], k, m.own[i]);
-    }
-    const F minimum(frame.minimum_distance);
-    const auto arriving = [&](int l) {
-      const auto light = sample_light(l, P);
-      const F faded = attenuate(fading.attenuation, light.r, minimum);
-      Arriving<F, C> result{light.L, {}};
-      for (int c = 0; c < color_channels; ++c) {
-        F passes;
-        for (int k = 0; k < shade_lanes; ++k)
-          set_lane(passes, k, lights.passes[c][std::size_t(l) * hits.count + hit[k]]);
-        result.I[c] = passes * (faded * light.I[c]);
-      }
-      return result;
-    };
-    C Ia;
-    for (int c = 0; c < color_channels; ++c)
-      Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, R, minimum);
-
-    const C I = illuminate<Model>(s, Ia, frame.light_count, arriving);
-
+    find_closest(frame.world, ray, active, count, hit);
     for (int k = 0; k < count; ++k) {
-      Rgb color;
-      for (int c = 0; c < color_channels; ++c) color[c] = lane(I[c], k);
-      add(hits.ray[hit[k]], color);
+      const std::uint32_t i = first + std::uint32_t(k) * lanes;
+      hit[k].t.store(&rays.t[i]);
+      hit[k].ids.instance.store(&rays.instance[i]);
+      hit[k].ids.geometry.store(&rays.geometry[i]);
+      hit[k].ids.primitive.store(&rays.primitive[i]);
     }
+  }
+
+  void trace_one(RayQueue& rays, std::uint32_t i) const {
+    const QueryRay<float> ray({rays.qx[i], rays.qy[i], rays.qz[i]},
+                              {float(rays.dx[i]), float(rays.dy[i]), float(rays.dz[i])});
+    Closest<float> hit{__builtin_inff()};
+    find_closest(frame.world, ray, true, hit);
+    rays.t[i] = hit.t;
+    rays.instance[i] = hit.ids.instance;
+    rays.geometry[i] = hit.ids.geometry;
+    rays.primitive[i] = hit.ids.primitive;
+  }
+
+  template <class T> static MaskOf<Pack<T, lanes>> first_lanes(std::uint32_t count) {
+    return Pack<T, lanes>(T(count)) > gather<Pack<T, lanes>>([](int k) { return T(k); });
+  }
+
+  void tell(const RayQueue& rays, RayKind kind) const {
+    for (std::uint32_t i = 0; i < rays.count; ++i)
+      frame.listener->asked(frame.listener->self,
+                            {rays.qx[i], rays.qy[i], rays.qz[i], float(rays.dx[i]), float(rays.dy[i]),
+                             float(rays.dz[i]), __builtin_inff(), kind});
+  }
+
+  std::uint32_t group_first[group_count + 1]{};  // in rays.order
+  std::uint32_t hit_count() const { return group_first[group_count]; }
+
+  void sort_into_groups() {
+    RayQueue& rays = scratch.rays;
+    std::uint32_t size[group_count] = {};
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+      if (rays.geometry[i] < 0) {
+        rays.group[i] = no_group;
+        add(i, frame.background);
+        continue;
+      }
+      rays.material[i] = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
+      const int kind = int(frame.world.geometries[rays.geometry[i]].kind);
+      const int group =
+          (kind * 2 + (rays.instance[i] >= 0)) * model_count + frame.materials[rays.material[i]].model;
+      rays.group[i] = std::uint8_t(group);
+      ++size[group];
+    }
+    group_first[0] = 0;
+    for (int g = 0; g < group_count; ++g) group_first[g + 1] = group_first[g] + size[g];
+    std::uint32_t next[group_count];
+    for (int g = 0; g < group_count; ++g) next[g] = group_first[g];
+    for (std::uint32_t i = 0; i < rays.count; ++i)
+      if (rays.group[i] != no_group) rays.order[next[rays.group[i]]++] = i;
   }
 
   /// Adds a ray's colour to its sample.
@@ -353,93 +210,378 @@ struct TileWork {
       scratch.samples.color[c][sample] += scratch.rays.weight[c][ray] * color[c];
   }
 
-  // ---- mirror rays and refracted rays
+  // ---- hits, a packet at a time
 
-  void follow() {
-    const HitQueue& hits = scratch.hits;
-    for (std::uint32_t h = 0; h < hits.count; ++h) {
-      const MaterialRecord& m = frame.materials[hits.material[h]];
-      if (m.reflects || m.transmits) follow(h, m);
+  /// The rays of a packet whose hits are looked at together; lanes left over repeat the last.
+  struct Lanes {
+    std::uint32_t ray[lanes];
+    int count;
+    bool adjacent;  ///< They stand side by side in the queue.
+    Truth active;
+
+    F load(const Column<double>& column) const {
+      if (adjacent) return F::load(&column[ray[0]]);
+      return gather<F>([&](int k) { return column[ray[k]]; });
     }
-  }
+    Vec3<F> load(const Column<double>& x, const Column<double>& y, const Column<double>& z) const {
+      return {load(x), load(y), load(z)};
+    }
+  };
 
-  void follow(std::uint32_t h, const MaterialRecord& m) {
-    const HitQueue& hits = scratch.hits;
-    const std::uint32_t ray = hits.ray[h], sample = scratch.rays.sample[ray];
-    const Vec3<double> P = at(hits.Px, hits.Py, hits.Pz, h), N = at(hits.Nx, hits.Ny, hits.Nz, h),
-                       V = at(hits.Vx, hits.Vy, hits.Vz, h);
-    const Vec3<double> G = at(hits.Gx, hits.Gy, hits.Gz, h);
-    Rgb weight;
-    for (int c = 0; c < color_channels; ++c) weight[c] = scratch.rays.weight[c][ray];
-    const double R = hits.R[h];
-    Rgb mirrored = m.reflect;
+  /// A packet of hits: all that is known of them.
+  struct Hits {
+    Vec3<F> P, N, V;
+    Vec3<F> G;            ///< Geometric normal; as N on V's side.
+    F R;                  ///< Distance from the eye, over all bounces.
+    Vec3<F> lifted;       ///< P, lifted to the smooth surface that it stands for.
+    Vec3<F> front, back;  ///< Where rays start that leave on V's side, and those that go through.
+    Truth outside;        ///< Whether V is on the outside.
+    std::uint32_t material[lanes];
+    bool one_material;
+  };
 
-    Vec3<double> through{};
-    bool refracted = false;
-    if (m.transmits) {
-      refracted = refract(V, N, G, hits.outside[h] ? 1 / m.ior : m.ior, through);
-      if (!refracted) {  // total internal reflection: what cannot leave stays, and goes with the mirror ray
-        mirrored = mirrored + m.transmit;
-        ++counts.refraction;  // asked for, though there is none: so does Haines count in the SPD's tables
+  /// Packets of hits whose shadow rays go through the tree together.
+  struct Block {
+    int count = 0;
+    Lanes at[beam];
+    Hits hits[beam];
+  };
+
+  void shade_group(int group, bool follow_on) {
+    const std::uint32_t last = group_first[group + 1];
+    for (std::uint32_t first = group_first[group]; first < last;) {
+      Block block;
+      for (; first < last && block.count < beam; first += lanes, ++block.count) {
+        block.at[block.count] = lanes_from(first, last);
+        block.hits[block.count] = look(block.at[block.count]);
+      }
+      for (int l = 0; l < frame.light_count; ++l) look_at_light(l, block);
+      for (int i = 0; i < block.count; ++i) {
+        with_model(ModelId(group % model_count), [&]<class Model>() { shade<Model>(block, i); });
+        if (follow_on) follow(block.at[i], block.hits[i]);
       }
     }
-    const Rgb mirror_weight = weight * mirrored;
-    if (!is_black(mirror_weight) || frame.whitted.trace_black_rays) {
-      Vec3<double> mirror = reflect(V, N);
-      if (!(dot(mirror, G) > 0))
-        mirror = reflect(V, G);  // the shading normal leans too far: do not look into the surface
-      push_ray(scratch.next_rays, P, at(hits.sx, hits.sy, hits.sz, h), normalize(mirror), R, mirror_weight,
-               sample);
-      ++counts.reflection;
+  }
+
+  Lanes lanes_from(std::uint32_t first, std::uint32_t last) const {
+    const std::uint32_t* order = &scratch.rays.order[first];
+    Lanes at;
+    at.count = int(min(last - first, std::uint32_t(lanes)));
+    for (int k = 0; k < lanes; ++k) at.ray[k] = order[min(k, at.count - 1)];
+    at.adjacent = at.count == lanes && at.ray[lanes - 1] - at.ray[0] == lanes - 1;
+    at.active = first_lanes<double>(std::uint32_t(at.count));
+    return at;
+  }
+
+  LAMBENT_FLATTEN Hits look(const Lanes& at) const {
+    const RayQueue& rays = scratch.rays;
+    const Vec3<F> o = at.load(rays.ox, rays.oy, rays.oz), d = at.load(rays.dx, rays.dy, rays.dz);
+    std::int32_t instance[lanes], geometry[lanes], primitive[lanes];
+    Hits hits;
+    hits.one_material = true;
+    for (int k = 0; k < lanes; ++k) {
+      instance[k] = rays.instance[at.ray[k]], geometry[k] = rays.geometry[at.ray[k]],
+      primitive[k] = rays.primitive[at.ray[k]];
+      hits.material[k] = rays.material[at.ray[k]];
+      hits.one_material &= hits.material[k] == hits.material[0];
     }
-    const Rgb through_weight = weight * m.transmit;
-    if (refracted && (!is_black(through_weight) || frame.whitted.trace_black_rays)) {
-      push_ray(scratch.next_rays, P, at(hits.bx, hits.by, hits.bz, h), normalize(through), R, through_weight,
-               sample);
-      ++counts.refraction;
+    const F t_found = gather<F>([&](int k) { return double(rays.t[at.ray[k]]); });
+    const SurfacePoint<F> s = surface_at<F>(frame.world, {instance, geometry, primitive}, o, d, t_found);
+    hits.P = s.P;
+    hits.V = -d;
+    hits.outside = dot(s.Ng, hits.V) >= F(0);
+    const F side = select(hits.outside, F(1), F(-1));
+    hits.N = side * s.N;
+    hits.G = side * s.Ng;
+    hits.lifted = s.P + s.lift;
+    hits.front = hits.lifted + s.offset * hits.G;
+    hits.back = s.P - s.offset * hits.G;
+    hits.R = at.load(rays.R) + s.t;
+    return hits;
+  }
+
+  /// A number of the hits' materials.
+  template <class Number> F of_materials(const Hits& hits, const Number& number) const {
+    if (hits.one_material) return F(number(frame.materials[hits.material[0]]));
+    return gather<F>([&](int k) { return number(frame.materials[hits.material[k]]); });
+  }
+  template <class Colors> C colors_of_materials(const Hits& hits, const Colors& colors) const {
+    C result;
+    for (int c = 0; c < color_channels; ++c)
+      result[c] = of_materials(hits, [&](const MaterialRecord& m) { return colors(m)[c]; });
+    return result;
+  }
+
+  // ---- the equation
+
+  template <class Model> LAMBENT_FLATTEN void shade(const Block& block, int packet) {
+    const Lanes& at = block.at[packet];
+    const Hits& hits = block.hits[packet];
+    Surface<F, C> s;
+    s.N = hits.N;
+    s.V = hits.V;
+    s.ka = colors_of_materials(hits, [](const MaterialRecord& m) { return m.ambient; });
+    s.kd = colors_of_materials(hits, [](const MaterialRecord& m) { return m.diffuse; });
+    s.ks = colors_of_materials(hits, [](const MaterialRecord& m) { return m.specular; });
+    s.n = of_materials(hits, [](const MaterialRecord& m) { return m.shininess; });
+    for (int i = 0; i < max_model_parameters; ++i)
+      if (Model::info.parameters[i].name)
+        s.own[i] = of_materials(hits, [&](const MaterialRecord& m) { return m.own[i]; });
+
+    const FadingRecord& fading = frame.fading[int(id_of<Model>)];
+    const F minimum(frame.minimum_distance);
+    C Ia;
+    for (int c = 0; c < color_channels; ++c)
+      Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, hits.R, minimum);
+
+    const auto arriving = [&](int l) -> Arriving<F, C> {
+      const std::uint32_t open = scratch.open[std::size_t(l) * beam + packet];
+      if (open == 0) return {hits.N, grey(F(0))};
+      const auto light = sample_light(l, hits.P);
+      return {light.L, share_that_passes(open, hits, light) *
+                           (attenuate(fading.attenuation, light.r, minimum) * light.I)};
+    };
+    const C I = illuminate<Model>(s, Ia, frame.light_count, arriving);
+    add(at, colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; }) + I);
+  }
+
+  LightSample<F, C> sample_light(int l, const Vec3<F>& P) const {
+    return with_light(frame.lights[l], [&](const auto& light) { return sample(light, P, F(0.5), F(0.5)); });
+  }
+
+  /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
+  /// surface (N.L <= 0) or dark in this direction.
+  LAMBENT_FLATTEN void look_at_light(int l, const Block& block) {
+    std::uint32_t* open_bits = &scratch.open[std::size_t(l) * beam];
+    QueryRay<Query> rays[beam];
+    Query t_far[beam];
+    MaskOf<Query> open[beam];
+    int packet[beam], asked = 0;
+    for (int i = 0; i < block.count; ++i) {
+      const Hits& hits = block.hits[i];
+      const auto light = sample_light(l, hits.P);
+      const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
+      open_bits[i] = lane_bits(lit);
+      if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
+      rays[asked] = shadow_ray(hits, light.L);
+      t_far[asked] = number_cast<float>(light.r);
+      open[asked] = mask_cast<std::int32_t>(lit);
+      counts.shadow += std::uint64_t(__builtin_popcount(open_bits[i]));
+      if (frame.listener) tell(rays[asked], open_bits[i], t_far[asked]);
+      packet[asked++] = i;
+    }
+    if (asked == 0) return;
+    cast_shadows(rays, t_far, asked, open);
+    for (int a = 0; a < asked; ++a) open_bits[packet[a]] = lane_bits(open[a]);
+  }
+
+  static QueryRay<Query> shadow_ray(const Hits& hits, const Vec3<F>& L) {
+    return {to_query(hits.front), to_query(L)};
+  }
+
+  bool all_opaque() const { return !frame.any_transmits || !frame.whitted.colored_shadows; }
+
+  [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
+                                      MaskOf<Query>* open) const {
+    find_open(frame.world, rays, t_far, count, all_opaque(), open);
+  }
+
+  /// How much of a light arrives at the lanes that it reaches: all, or what transmitting surfaces leave of
+  /// it.
+  C share_that_passes(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light) const {
+    const C passes = grey(gather<F>([&](int k) { return open >> k & 1 ? 1.0 : 0.0; }));
+    if (all_opaque() || !frame.whitted.shadows) return passes;
+    return passes * transmittance(open, hits, light);
+  }
+
+  void tell(const QueryRay<Query>& ray, std::uint32_t asked, const Query& t_far) const {
+    for (; asked; asked &= asked - 1) {
+      const int k = __builtin_ctz(asked);
+      frame.listener->asked(frame.listener->self,
+                            {lane(ray.o.x, k), lane(ray.o.y, k), lane(ray.o.z, k), lane(ray.d.x, k),
+                             lane(ray.d.y, k), lane(ray.d.z, k), lane(t_far, k), RayKind::shadow});
     }
   }
 
-  /// Snell: sin(theta') = eta sin(theta), eta the index on V's side over that beyond. False where the light
-  /// is reflected totally.
-  static bool refract(const Vec3<double>& V, const Vec3<double>& N, const Vec3<double>& G, double eta,
-                      Vec3<double>& through) {
-    for (const Vec3<double>& n :
-         {N, G}) {  // the geometric normal where the shading normal would bend the ray back out
-      const double cosine = dot(n, V), k = 1 - eta * eta * (1 - cosine * cosine);
-      if (k < 0) return false;
-      through = (eta * cosine - sqrt(k)) * n - eta * V;
-      if (dot(through, G) < 0) return true;
+  /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
+  /// order in which the ray meets them.
+  [[gnu::noinline]] C transmittance(std::uint32_t open, const Hits& hits,
+                                    const LightSample<F, C>& light) const {
+    const QueryRay<Query> rays = shadow_ray(hits, light.L);
+    double left[color_channels][lanes] = {};
+    for (; open; open &= open - 1) {
+      const int k = __builtin_ctz(open);
+      const Rgb one = transmittance(rays, k, float(lane(light.r, k)));
+      for (int c = 0; c < color_channels; ++c) left[c][k] = one[c];
     }
-    return false;
+    C result;
+    for (int c = 0; c < color_channels; ++c) result[c] = F::load(left[c]);
+    return result;
+  }
+  Rgb transmittance(const QueryRay<Query>& packet, int k, float t_far) const {
+    QueryRay<float> ray({lane(packet.o.x, k), lane(packet.o.y, k), lane(packet.o.z, k)},
+                        {lane(packet.d.x, k), lane(packet.d.y, k), lane(packet.d.z, k)});
+    const Vec3<double> d = normalize(cast<double>(ray.d));
+    double left = t_far;
+    Rgb result = grey(1.0);
+    for (;;) {
+      Closest<float> hit{float(left)};
+      find_closest(frame.world, ray, true, hit);
+      if (hit.ids.geometry < 0) return result;
+      const SurfacePoint<double> s = surface_at(frame.world, hit.ids, cast<double>(ray.o), d, hit.t);
+      result =
+          result *
+          frame.materials[material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive)]
+              .transmit;
+      if (is_black(result)) return result;
+      const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
+      left = left - max(s.t, 0.0);
+      if (!(left > 0)) return result;
+      ray.o = cast<float>(s.P + side * s.offset * s.Ng);
+    }
+  }
+
+  /// Adds the colours of a packet's rays to their samples.
+  void add(const Lanes& at, const C& color) {
+    const RayQueue& rays = scratch.rays;
+    const std::uint32_t* sample = &rays.sample[at.ray[0]];
+    bool samples_adjacent = at.adjacent;
+    if (at.adjacent)
+      for (int k = 1; k < lanes; ++k) samples_adjacent &= sample[k] == sample[0] + std::uint32_t(k);
+    for (int c = 0; c < color_channels; ++c) {
+      const Column<double>& to = scratch.samples.color[c];
+      const F weighted = at.load(rays.weight[c]) * color[c];
+      if (samples_adjacent) {
+        (F::load(&to[sample[0]]) + weighted).store(&to[sample[0]]);
+      } else {
+        double values[lanes];
+        weighted.store(values);
+        for (int k = 0; k < at.count; ++k) to[rays.sample[at.ray[k]]] += values[k];
+      }
+    }
+  }
+
+  // ---- mirror rays and refracted rays
+
+  LAMBENT_FLATTEN void follow(const Lanes& at, const Hits& hits) {
+    bool reflects = false, transmits = false;
+    for (int k = 0; k < at.count; ++k) {
+      const MaterialRecord& m = frame.materials[hits.material[k]];
+      reflects |= m.reflects, transmits |= m.transmits;
+    }
+    if (!reflects && !transmits) return;
+
+    C weight;
+    for (int c = 0; c < color_channels; ++c) weight[c] = at.load(scratch.rays.weight[c]);
+    C mirrored = colors_of_materials(hits, [](const MaterialRecord& m) { return m.reflect; });
+    const C through = colors_of_materials(hits, [](const MaterialRecord& m) { return m.transmit; });
+    // Rays are asked for where the material does either.
+    const Truth concerned = both(at.active, Truth(of_materials(hits, [](const MaterialRecord& m) {
+                                                    return m.reflects || m.transmits ? 1.0 : 0.0;
+                                                  }) > F(0)));
+    Refraction bent{};
+    Truth refracted(false);
+    if (transmits) {
+      const F ior = of_materials(hits, [](const MaterialRecord& m) { return m.ior; });
+      bent = refract(hits, select(hits.outside, F(1) / ior, ior));
+      const Truth asked = both(concerned, Truth(!is_black(through)));
+      refracted = both(asked, bent.passes);
+      // Total internal reflection: what cannot leave stays, and goes with the mirror ray. It counts as asked
+      // for, though there is no ray: so does Haines count in the SPD's tables.
+      const Truth total = both(asked, Truth(!bent.passes));
+      mirrored = select(total, mirrored + through, mirrored);
+      counts.refraction += std::uint64_t(__builtin_popcount(lane_bits(total)));
+    }
+
+    Vec3<F> mirror = reflect(hits.V, hits.N);
+    // Where the shading normal leans too far: do not look into the surface.
+    mirror = select(dot(mirror, hits.G) > F(0), mirror, reflect(hits.V, hits.G));
+    const bool black_too = frame.whitted.trace_black_rays;
+    const C mirror_weight = weight * mirrored, through_weight = weight * through;
+    const Truth mirrors = black_too ? concerned : both(concerned, Truth(!is_black(mirror_weight)));
+    const Truth passes = black_too ? refracted : both(refracted, Truth(!is_black(through_weight)));
+    // From the lifted point in double too: the surface that the query finds from there may lie beside the one
+    // that the ray would meet from P.
+    const Leaving mirror_rays(hits.lifted, hits.front, normalize(mirror), mirror_weight),
+        through_rays(hits.P, hits.back, select(passes, normalize(bent.d), mirror), through_weight);
+    const std::uint32_t mirror_bits = lane_bits(mirrors), through_bits = lane_bits(passes);
+    counts.reflection += std::uint64_t(__builtin_popcount(mirror_bits));
+    counts.refraction += std::uint64_t(__builtin_popcount(through_bits));
+
+    double R[lanes];
+    hits.R.store(R);
+    const auto push = [&](const Leaving& leaving, int k) {
+      RayQueue& rays = scratch.next_rays;
+      if (rays.count == rays.capacity) Scratch::grow(rays, rays.capacity * 2 + batch_size);
+      const std::uint32_t i = rays.count++;
+      rays.ox[i] = leaving.o[0][k], rays.oy[i] = leaving.o[1][k], rays.oz[i] = leaving.o[2][k];
+      rays.dx[i] = leaving.d[0][k], rays.dy[i] = leaving.d[1][k], rays.dz[i] = leaving.d[2][k];
+      rays.qx[i] = leaving.q[0][k], rays.qy[i] = leaving.q[1][k], rays.qz[i] = leaving.q[2][k];
+      rays.R[i] = R[k];
+      for (int c = 0; c < color_channels; ++c) rays.weight[c][i] = leaving.weight[c][k];
+      rays.sample[i] = scratch.rays.sample[at.ray[k]];
+    };
+    for (int k = 0; k < at.count; ++k) {
+      if (mirror_bits >> k & 1) push(mirror_rays, k);
+      if (through_bits >> k & 1) push(through_rays, k);
+    }
+  }
+
+  /// Rays of a packet that leave their hits, laid out to be taken one by one.
+  struct Leaving {
+    double o[3][lanes], d[3][lanes], weight[color_channels][lanes];
+    float q[3][lanes];
+    Leaving(const Vec3<F>& origin, const Vec3<F>& start, const Vec3<F>& direction, const C& of_color) {
+      origin.x.store(o[0]), origin.y.store(o[1]), origin.z.store(o[2]);
+      direction.x.store(d[0]), direction.y.store(d[1]), direction.z.store(d[2]);
+      const Vec3<Query> query = to_query(start);
+      query.x.store(q[0]), query.y.store(q[1]), query.z.store(q[2]);
+      for (int c = 0; c < color_channels; ++c) of_color[c].store(weight[c]);
+    }
+  };
+
+  struct Refraction {
+    Vec3<F> d;
+    Truth passes;  ///< False where the light is reflected totally.
+  };
+
+  /// Snell: sin(theta') = eta sin(theta), eta the index on V's side over that beyond. About the shading
+  /// normal, or about the geometric one where the shading normal would bend the ray back out.
+  static Refraction refract(const Hits& hits, const F& eta) {
+    const auto about = [&](const Vec3<F>& n, Truth& possible) {
+      const F cosine = dot(n, hits.V), k = F(1) - eta * eta * (F(1) - cosine * cosine);
+      possible = k >= F(0);
+      return (eta * cosine - sqrt(max(k, F(0)))) * n - eta * hits.V;
+    };
+    Truth by_N, by_G;
+    const Vec3<F> d = about(hits.N, by_N), d_G = about(hits.G, by_G);
+    const Truth through_N = both(by_N, dot(d, hits.G) < F(0));
+    const Truth through_G = both(by_N, by_G, dot(d_G, hits.G) < F(0));
+    return {select(through_N, d, d_G), either(through_N, through_G)};
   }
 
   // ---- the film
 
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
+    auto pixel = std::uint32_t(first / samples_per_pixel());
+    int left = samples_per_pixel() - int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++i) {
-      const auto pixel = std::uint32_t((first + i) / frame.samples);
-      for (int c = 0; c < color_channels; ++c) scratch.pixels.color[c][pixel] += scratch.samples.color[c][i];
-    }
-  }
-
-  void develop() {
-    for (std::uint32_t i = 0; i < pixel_count(); ++i) {
-      const std::size_t x = tile.x0 + i % width(), y = tile.y0 + i / width();
-      float* to = frame.film + (y * frame.film_width + x) * color_channels;
-      for (int c = 0; c < color_channels; ++c) to[c] = float(scratch.pixels.color[c][i] / frame.samples);
+      for (int c = 0; c < color_channels; ++c)
+        task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
+      if (--left == 0) left = samples_per_pixel(), ++pixel;
     }
   }
 };
 
-void render_tile(const Frame& frame, const Tile& tile, Scratch& scratch, RayCounts& counts) {
-  TileWork{frame, tile, scratch, counts}.run();
+void render(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) {
+  Work work{frame, task, scratch, counts};
+  work.run();
 }
 
 }  // namespace
 
 extern const Kernel whitted_kernel;
-const Kernel whitted_kernel{LAMBENT_ISA_NAME, render_tile};
+const Kernel whitted_kernel{LAMBENT_ISA_NAME, render};
 
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -38,7 +38,7 @@ inline namespace LAMBENT_ISA {
 template <class F> LightSample<F, Color<F>> towards(const Vec3<F>& position, const Vec3<F>& P) {
   const Vec3<F> way = position - P;
   const F r = length(way);
-  return {select(r > F(0), way / r, Vec3<F>{F(0), F(0), F(0)}), r, Color<F>{}, F(0)};
+  return {select(r > F(0), (F(1) / r) * way, Vec3<F>{F(0), F(0), F(0)}), r, Color<F>{}, F(0)};
 }
 
 template <class F> Color<F> emitted(const Rgb& color, double intensity) {

@@ -14,6 +14,13 @@ template <class F, int Channels = color_channels> struct Color {
   constexpr F& operator[](int i) { return c[i]; }
   constexpr const F& operator[](int i) const { return c[i]; }
 };
+/// Of packets, `Color<F> c;` is nothing until it is set and `Color<F> c{}` is black, as Vec3 (vec.h).
+template <class F, int Channels>
+requires(!Scalar<F>) struct Color<F, Channels> {
+  F c[Channels];
+  constexpr F& operator[](int i) { return c[i]; }
+  constexpr const F& operator[](int i) const { return c[i]; }
+};
 
 /// The colour of scenes, lights and materials: linear RGB, 1 is white.
 using Rgb = Color<double, 3>;
@@ -58,7 +65,12 @@ template <class F, int C = color_channels> constexpr Color<F, C> grey(const F& v
   for (int i = 0; i < C; ++i) result[i] = value;
   return result;
 }
-template <int C> constexpr bool is_black(const Color<double, C>& a) { return a == Color<double, C>{}; }
+/// Whether every channel is zero; for packets lane by lane.
+template <class F, int C> constexpr auto is_black(const Color<F, C>& a) {
+  auto black = a[0] == F(0);
+  for (int i = 1; i < C; ++i) black = both(black, a[i] == F(0));
+  return black;
+}
 
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -31,6 +31,8 @@ template <> constexpr bool either(bool a, bool b) { return a || b; }
 template <Scalar T> constexpr T max(T a, T b) { return a > b ? a : b; }
 template <Scalar T> constexpr T min(T a, T b) { return a < b ? a : b; }
 template <Scalar T> constexpr T abs(T a) { return a < 0 ? -a : a; }
+constexpr float abs(float a) { return __builtin_fabsf(a); }
+constexpr double abs(double a) { return __builtin_fabs(a); }
 inline float sqrt(float a) { return __builtin_sqrtf(a); }
 inline double sqrt(double a) { return __builtin_sqrt(a); }
 

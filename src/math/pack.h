@@ -1,17 +1,21 @@
 #pragma once
-// W numbers that behave as one: a lane for each ray, point or hit. Built on the compilers' vector extension,
-// so an operation is one instruction where W is the machine's width. Comparisons give a Mask; select(mask, a,
-// b) chooses.
+// W numbers that behave as one: a lane for each ray, point or hit. Built on the compilers' vector extension;
+// a packet that is wider than the machine's registers takes several of them. Comparisons give a Mask;
+// select(mask, a, b) chooses.
 
 #include <cstring>
+#include <utility>
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
 #include "math/number.h"
 
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
-// The widest registers of this translation unit's instruction set, in lanes of float. A packet wider than the
-// registers would be right too, but g++ 12 takes such packets apart lane by lane.
+// The widest registers of this translation unit's instruction set, in lanes of float.
 #if defined(__AVX512F__)
 inline constexpr int native_float_lanes = 16;
 #elif defined(__AVX__)
@@ -25,88 +29,312 @@ template <int Bytes> struct IntOfSize;
 template <> struct IntOfSize<4> { using type = std::int32_t; };
 template <> struct IntOfSize<8> { using type = std::int64_t; };
 
+/// How W lanes of T lie in registers: `parts` of them, one or two, with `part_lanes` each. (g++ 12 would take
+/// a vector that is wider than the registers apart lane by lane, and it keeps an array of them in memory.)
+template <class T, int W> struct Registers {
+  static constexpr int native = native_float_lanes * 4 / int(sizeof(T));
+  static constexpr int part_lanes = W < native ? W : native, parts = W / part_lanes;
+  static_assert(parts * part_lanes == W && parts <= 2);
+  using Raw = typename RawPack<T, part_lanes>::type;
+};
+template <class Raw, int N> struct Parts { Raw p0; };
+template <class Raw> struct Parts<Raw, 2> { Raw p0, p1; };
+
+/// Operations part by part: `f(a's part, b's part ...)`.
+template <class Result, class Function, class... P> Result by_parts(const Function& f, const P&... p) {
+  Result result;
+  result.p0 = f(p.p0...);
+  if constexpr (Result::In::parts == 2) result.p1 = f(p.p1...);
+  return result;
+}
+
 /// One truth for each of W lanes: all bits of an Int set, or none. Int is as wide as the numbers that were
 /// compared.
-template <class Int, int W> struct Mask {
-  using Raw = typename RawPack<Int, W>::type;
-  Raw v;
-  Mask() : v{} {}
-  Mask(Raw raw) : v(raw) {}
-  explicit Mask(bool all_lanes) : v(Raw{} - Int(all_lanes)) {}
-  friend Mask operator&(Mask a, Mask b) { return a.v & b.v; }
-  friend Mask operator|(Mask a, Mask b) { return a.v | b.v; }
-  friend Mask operator!(Mask a) { return ~a.v; }
+template <class Int, int W> struct Mask : Parts<typename Registers<Int, W>::Raw, Registers<Int, W>::parts> {
+  using In = Registers<Int, W>;
+  using Raw = typename In::Raw;
+  Mask() = default;
+  explicit Mask(bool all_lanes) {
+    this->p0 = Raw{} - Int(all_lanes);
+    if constexpr (In::parts == 2) this->p1 = this->p0;
+  }
+  friend Mask operator&(const Mask& a, const Mask& b) {
+    return by_parts<Mask>([](Raw x, Raw y) { return x & y; }, a, b);
+  }
+  friend Mask operator|(const Mask& a, const Mask& b) {
+    return by_parts<Mask>([](Raw x, Raw y) { return x | y; }, a, b);
+  }
+  friend Mask operator!(const Mask& a) {
+    return by_parts<Mask>([](Raw x) { return ~x; }, a);
+  }
 };
-template <class Int, int W> bool any(Mask<Int, W> m) {
-  std::uint64_t words[sizeof(m.v) / 8], bits = 0;
-  std::memcpy(words, &m.v, sizeof(m.v));
-  for (std::uint64_t word : words) bits |= word;
-  return bits != 0;
-}
-template <class Int, int W> bool all(Mask<Int, W> m) { return !any(!m); }
 
-template <class T, int W> struct Pack {
-  using Raw = typename RawPack<T, W>::type;
+/// A bit for each lane of a register, the first lane's lowest.
+template <int Lanes, class Raw> std::uint32_t register_bits(const Raw& r) {
+  constexpr std::size_t size = sizeof(Raw), number = size / Lanes;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  if constexpr (size == 64 && number == 4) return _mm512_movepi32_mask(__m512i(r));
+  else if constexpr (size == 64) return _mm512_movepi64_mask(__m512i(r));
+  else
+#endif
+#if defined(__AVX__)
+      if constexpr (size == 32 && number == 4)
+    return std::uint32_t(_mm256_movemask_ps(__m256(r)));
+  else if constexpr (size == 32) return std::uint32_t(_mm256_movemask_pd(__m256d(r)));
+  else
+#endif
+#if defined(__x86_64__)
+      if constexpr (size == 16 && number == 4)
+    return std::uint32_t(_mm_movemask_ps(__m128(r)));
+  else if constexpr (size == 16) return std::uint32_t(_mm_movemask_pd(__m128d(r)));
+  else
+#endif
+  {
+    std::uint32_t bits = 0;
+    for (int k = 0; k < Lanes; ++k) bits |= std::uint32_t(r[k] != 0) << k;
+    return bits;
+  }
+}
+template <class Int, int W> std::uint32_t lane_bits(const Mask<Int, W>& m) {
+  using In = typename Mask<Int, W>::In;
+  std::uint32_t bits = register_bits<In::part_lanes>(m.p0);
+  if constexpr (In::parts == 2) bits |= register_bits<In::part_lanes>(m.p1) << In::part_lanes;
+  return bits;
+}
+template <int W> inline constexpr std::uint32_t all_lane_bits = W == 32 ? ~0u : (1u << W) - 1;
+template <class Int, int W> bool any(const Mask<Int, W>& m) {
+  using In = typename Mask<Int, W>::In;
+  if constexpr (In::parts == 2) return register_bits<In::part_lanes>(m.p0 | m.p1) != 0;
+  else return register_bits<In::part_lanes>(m.p0) != 0;
+}
+template <class Int, int W> bool all(const Mask<Int, W>& m) { return lane_bits(m) == all_lane_bits<W>; }
+
+template <class T, int W> struct Pack : Parts<typename Registers<T, W>::Raw, Registers<T, W>::parts> {
+  using In = Registers<T, W>;
+  using Raw = typename In::Raw;
   using Truth = Mask<typename IntOfSize<sizeof(T)>::type, W>;
-  Raw v;
-  Pack() : v{} {}
-  Pack(Raw raw) : v(raw) {}
-  Pack(T all_lanes) : v(Raw{} + all_lanes) {}
+  using RawTruth = typename Truth::Raw;
+  Pack() = default;
+  Pack(T all_lanes) {
+    this->p0 = all_lanes - Raw{};
+    if constexpr (In::parts == 2) this->p1 = this->p0;
+  }
   static Pack load(const T* from) {
     Pack result;
-    std::memcpy(&result.v, from, sizeof(Raw));
+    std::memcpy(&result.p0, from, sizeof(Raw));
+    if constexpr (In::parts == 2) std::memcpy(&result.p1, from + In::part_lanes, sizeof(Raw));
     return result;
   }
-  void store(T* to) const { std::memcpy(to, &v, sizeof(Raw)); }
+  void store(T* to) const {
+    std::memcpy(to, &this->p0, sizeof(Raw));
+    if constexpr (In::parts == 2) std::memcpy(to + In::part_lanes, &this->p1, sizeof(Raw));
+  }
 
-  friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
-  friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }
-  friend Pack operator*(Pack a, Pack b) { return a.v * b.v; }
-  friend Pack operator/(Pack a, Pack b) { return a.v / b.v; }
-  friend Pack operator-(Pack a) { return -a.v; }
-  friend Truth operator<(Pack a, Pack b) { return typename Truth::Raw(a.v < b.v); }
-  friend Truth operator>(Pack a, Pack b) { return typename Truth::Raw(a.v > b.v); }
-  friend Truth operator<=(Pack a, Pack b) { return typename Truth::Raw(a.v <= b.v); }
-  friend Truth operator>=(Pack a, Pack b) { return typename Truth::Raw(a.v >= b.v); }
-  friend Truth operator==(Pack a, Pack b) { return typename Truth::Raw(a.v == b.v); }
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return by_parts<Pack>([](Raw x, Raw y) { return x + y; }, a, b);
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return by_parts<Pack>([](Raw x, Raw y) { return x - y; }, a, b);
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return by_parts<Pack>([](Raw x, Raw y) { return x * y; }, a, b);
+  }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return by_parts<Pack>([](Raw x, Raw y) { return x / y; }, a, b);
+  }
+  friend Pack operator-(const Pack& a) {
+    return by_parts<Pack>([](Raw x) { return -x; }, a);
+  }
+  friend Truth operator<(const Pack& a, const Pack& b) {
+    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x < y); }, a, b);
+  }
+  friend Truth operator>(const Pack& a, const Pack& b) {
+    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x > y); }, a, b);
+  }
+  friend Truth operator<=(const Pack& a, const Pack& b) {
+    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x <= y); }, a, b);
+  }
+  friend Truth operator>=(const Pack& a, const Pack& b) {
+    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x >= y); }, a, b);
+  }
+  friend Truth operator==(const Pack& a, const Pack& b) {
+    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x == y); }, a, b);
+  }
 };
 
-template <class T, int W> Pack<T, W> select(typename Pack<T, W>::Truth m, Pack<T, W> a, Pack<T, W> b) {
-  return m.v ? a.v : b.v;
+template <class T, int W>
+Pack<T, W> select(const typename Pack<T, W>::Truth& m, const Pack<T, W>& a, const Pack<T, W>& b) {
+  using P = Pack<T, W>;
+  return by_parts<P>([](typename P::RawTruth m, typename P::Raw x, typename P::Raw y) { return m ? x : y; },
+                     m, a, b);
 }
-template <class T, int W> Pack<T, W> max(Pack<T, W> a, Pack<T, W> b) { return select(a > b, a, b); }
-template <class T, int W> Pack<T, W> min(Pack<T, W> a, Pack<T, W> b) { return select(a < b, a, b); }
-template <class T, int W> Pack<T, W> abs(Pack<T, W> a) { return select(a < Pack<T, W>(T(0)), -a, a); }
-template <class T, int W> Pack<T, W> sqrt(Pack<T, W> a) {
-  for (int i = 0; i < W; ++i) a.v[i] = sqrt(a.v[i]);  // both compilers make one instruction of this loop
-  return a;
+// Written out, so that the compilers see the one instruction that each of them is.
+template <class T, int W> Pack<T, W> max(const Pack<T, W>& a, const Pack<T, W>& b) {
+  using Raw = typename Pack<T, W>::Raw;
+  return by_parts<Pack<T, W>>([](Raw x, Raw y) { return x > y ? x : y; }, a, b);
 }
-template <int W> Pack<std::int64_t, W> to_bits(Pack<double, W> a) {
-  return std::bit_cast<typename RawPack<std::int64_t, W>::type>(a.v);
+template <class T, int W> Pack<T, W> min(const Pack<T, W>& a, const Pack<T, W>& b) {
+  using Raw = typename Pack<T, W>::Raw;
+  return by_parts<Pack<T, W>>([](Raw x, Raw y) { return x < y ? x : y; }, a, b);
 }
-template <int W> Pack<double, W> from_bits(Pack<std::int64_t, W> a) {
-  return std::bit_cast<typename RawPack<double, W>::type>(a.v);
+template <class T, int W> Pack<T, W> abs(const Pack<T, W>& a) {
+  using Raw = typename Pack<T, W>::Raw;
+  using Bits = typename Pack<T, W>::RawTruth;
+  using Int = typename IntOfSize<sizeof(T)>::type;
+  constexpr Int all_but_sign = Int(~(std::uint64_t(1) << (8 * sizeof(T) - 1)));
+  return by_parts<Pack<T, W>>([](Raw x) { return Raw(Bits(x) & (all_but_sign - Bits{})); }, a);
 }
-template <int W> Pack<std::int64_t, W> operator<<(Pack<std::int64_t, W> a, int n) { return a.v << n; }
-template <int W> Pack<std::int64_t, W> operator>>(Pack<std::int64_t, W> a, int n) { return a.v >> n; }
+template <class T, int W> Pack<T, W> sqrt(const Pack<T, W>& a) {
+  using Raw = typename Pack<T, W>::Raw;
+  return by_parts<Pack<T, W>>(
+      [](Raw x) {
+        for (int i = 0; i < Pack<T, W>::In::part_lanes; ++i)
+          x[i] = sqrt(x[i]);  // both compilers make one instruction of this loop
+        return x;
+      },
+      a);
+}
+
+template <int W> Pack<std::int64_t, W> to_bits(const Pack<double, W>& a) {
+  using I = Pack<std::int64_t, W>;
+  return by_parts<I>([](typename Pack<double, W>::Raw x) { return typename I::Raw(x); }, a);
+}
+template <int W> Pack<double, W> from_bits(const Pack<std::int64_t, W>& a) {
+  using D = Pack<double, W>;
+  return by_parts<D>([](typename Pack<std::int64_t, W>::Raw x) { return typename D::Raw(x); }, a);
+}
+template <int W> Pack<std::int64_t, W> operator<<(const Pack<std::int64_t, W>& a, int n) {
+  return by_parts<Pack<std::int64_t, W>>([n](auto x) { return x << n; }, a);
+}
+template <int W> Pack<std::int64_t, W> operator>>(const Pack<std::int64_t, W>& a, int n) {
+  return by_parts<Pack<std::int64_t, W>>([n](auto x) { return x >> n; }, a);
+}
 
 /// How many numbers an F holds; their reading and writing, one by one.
 template <class F> inline constexpr int lanes_of = 1;
 template <class T, int W> inline constexpr int lanes_of<Pack<T, W>> = W;
 template <Scalar T> T lane(T a, int) { return a; }
-template <class T, int W> T lane(const Pack<T, W>& a, int i) { return a.v[i]; }
-inline bool lane(bool a, int) { return a; }
-template <class Int, int W> bool lane(const Mask<Int, W>& a, int i) { return a.v[i] != 0; }
-inline void set_lane(bool& a, int, bool value) { a = value; }
-template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) {
-  a.v[i] = value ? Int(-1) : Int(0);
+template <class T, int W> T lane(const Pack<T, W>& a, int i) {
+  T values[W];
+  a.store(values);
+  return values[i];
 }
+inline bool lane(bool a, int) { return a; }
+template <class Int, int W> bool lane(const Mask<Int, W>& a, int i) { return lane_bits(a) >> i & 1; }
+inline void set_lane(bool& a, int, bool value) { a = value; }
 template <Scalar T>
 requires(!std::is_same_v<T, bool>) void set_lane(T& a, int, T value) { a = value; }
-template <class T, int W> void set_lane(Pack<T, W>& a, int i, T value) { a.v[i] = value; }
+template <class T, int W> void set_lane(Pack<T, W>& a, int i, T value) {
+  T values[W];
+  a.store(values);
+  values[i] = value;
+  a = Pack<T, W>::load(values);
+}
+template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) {
+  auto numbers = std::bit_cast<Pack<Int, W>>(a);
+  set_lane(numbers, i, value ? Int(-1) : Int(0));
+  a = std::bit_cast<Mask<Int, W>>(numbers);
+}
+
+/// The least and the greatest lane.
+template <class T, int W, class Choose> T reduce(const Pack<T, W>& a, const Choose& choose) {
+  T values[W];
+  a.store(values);
+  for (int n = W / 2; n > 0; n /= 2)
+    for (int i = 0; i < n; ++i) values[i] = choose(values[i], values[i + n]);
+  return values[0];
+}
+template <class T, int W> T least(const Pack<T, W>& a) {
+  return reduce(a, [](T x, T y) { return min(x, y); });
+}
+template <class T, int W> T greatest(const Pack<T, W>& a) {
+  return reduce(a, [](T x, T y) { return max(x, y); });
+}
+template <Scalar T> T least(T a) { return a; }
+template <Scalar T> T greatest(T a) { return a; }
 
 /// The type of a comparison of two F.
 template <class F> using MaskOf = decltype(F() < F());
+
+/// An F of as many lanes with other numbers in them.
+template <class F, class T> struct WithNumber { using type = T; };
+template <class From, int W, class T> struct WithNumber<Pack<From, W>, T> { using type = Pack<T, W>; };
+template <class F, class T> using With = typename WithNumber<F, T>::type;
+
+/// F with value(k) in lane k: for numbers that lie apart in memory.
+template <class F, class Value> F gather(const Value& value) {
+  if constexpr (lanes_of<F> == 1) {
+    return F(value(0));
+  } else {
+    using In = typename F::In;
+    const auto part = [&]<std::size_t... k>(int first, std::index_sequence<k...>) {
+      return typename F::Raw{value(first + int(k))...};
+    };
+    F result;
+    result.p0 = part(0, std::make_index_sequence<In::part_lanes>());
+    if constexpr (In::parts == 2)
+      result.p1 = part(In::part_lanes, std::make_index_sequence<In::part_lanes>());
+    return result;
+  }
+}
+
+template <int First, class Raw, std::size_t... k> auto half(const Raw& a, std::index_sequence<k...>) {
+  return __builtin_shufflevector(a, a, (First + int(k))...);
+}
+template <class Half, std::size_t... k> auto joined(const Half& a, const Half& b, std::index_sequence<k...>) {
+  return __builtin_shufflevector(a, b, int(k)...);
+}
+
+/// Lane by lane the nearest To.
+template <class To, Scalar T> To number_cast(T a) { return To(a); }
+template <class To, class T, int W> Pack<To, W> number_cast(const Pack<T, W>& a) {
+  using From = Registers<T, W>;
+  using Into = Registers<To, W>;
+  Pack<To, W> result;
+  if constexpr (From::parts == Into::parts) {
+    return by_parts<Pack<To, W>>(
+        [](typename From::Raw x) { return __builtin_convertvector(x, typename Into::Raw); }, a);
+  } else if constexpr (Into::parts == 2) {  // each half of the register becomes one
+    result.p0 = __builtin_convertvector(half<0>(a.p0, std::make_index_sequence<W / 2>()), typename Into::Raw);
+    result.p1 =
+        __builtin_convertvector(half<W / 2>(a.p0, std::make_index_sequence<W / 2>()), typename Into::Raw);
+  } else {
+    typedef To Half __attribute__((vector_size(W / 2 * sizeof(To))));
+    result.p0 = joined(__builtin_convertvector(a.p0, Half), __builtin_convertvector(a.p1, Half),
+                       std::make_index_sequence<W>());
+  }
+  return result;
+}
+
+/// The same truths for numbers of another size.
+template <class To, class From, int W> Mask<To, W> mask_cast(const Mask<From, W>& m) {
+  const Pack<From, W> from = std::bit_cast<Pack<From, W>>(m);
+  return std::bit_cast<Mask<To, W>>(number_cast<To>(from));
+}
+template <class To> bool mask_cast(bool m) { return m; }
+
+/// a b - c, rounded once or twice as the machine likes: for bounds that allow for either.
+template <int W>
+Pack<float, W> multiply_subtract_roughly(const Pack<float, W>& a, const Pack<float, W>& b,
+                                         const Pack<float, W>& c) {
+  using Raw = typename Pack<float, W>::Raw;
+  return by_parts<Pack<float, W>>(
+      [](Raw x, Raw y, Raw z) {
+        [[maybe_unused]] constexpr std::size_t size = sizeof(Raw);
+#if defined(__AVX512F__)
+        if constexpr (size == 64) return Raw(_mm512_fmsub_ps(x, y, z));
+        else
+#endif
+#if defined(__FMA__)
+            if constexpr (size == 32)
+          return Raw(_mm256_fmsub_ps(x, y, z));
+        else if constexpr (size == 16) return Raw(_mm_fmsub_ps(x, y, z));
+        else
+#endif
+          return x * y - z;
+      },
+      a, b, c);
+}
 
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

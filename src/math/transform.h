@@ -7,18 +7,19 @@
 
 namespace lambent {
 
-/// x -> (columns x y z) x + translation.
-struct Transform {
-  Vec3<double> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};  ///< Where the axes go.
-  Vec3<double> translation{0, 0, 0};
+/// x -> (columns x y z) x + translation. F: a double, or a packet of them.
+template <class F> struct TransformOf {
+  Vec3<F> x{F(1), F(0), F(0)}, y{F(0), F(1), F(0)}, z{F(0), F(0), F(1)};  ///< Where the axes go.
+  Vec3<F> translation{F(0), F(0), F(0)};
 };
+using Transform = TransformOf<double>;
 
 inline namespace LAMBENT_ISA {
 
-inline Vec3<double> transform_vector(const Transform& t, const Vec3<double>& v) {
+template <class F> Vec3<F> transform_vector(const TransformOf<F>& t, const Vec3<F>& v) {
   return v.x * t.x + v.y * t.y + v.z * t.z;
 }
-inline Vec3<double> transform_point(const Transform& t, const Vec3<double>& p) {
+template <class F> Vec3<F> transform_point(const TransformOf<F>& t, const Vec3<F>& p) {
   return transform_vector(t, p) + t.translation;
 }
 /// First b, then a.
@@ -37,7 +38,7 @@ inline Transform inverse(const Transform& t) {
 }
 /// The transpose of t's linear part applied to v: with t = object_from_world it takes an object's normal into
 /// the world.
-inline Vec3<double> transform_normal(const Transform& inverse_of_t, const Vec3<double>& n) {
+template <class F> Vec3<F> transform_normal(const TransformOf<F>& inverse_of_t, const Vec3<F>& n) {
   return {dot(inverse_of_t.x, n), dot(inverse_of_t.y, n), dot(inverse_of_t.z, n)};
 }
 inline bool is_identity(const Transform& t) {

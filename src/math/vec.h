@@ -7,8 +7,13 @@
 namespace lambent {
 
 template <class F> struct Vec2 { F x{}, y{}; };
-
 template <class F> struct Vec3 { F x{}, y{}, z{}; };
+/// Of packets, `Vec3<F> v;` is nothing until it is set, as any number would be: zeroes would be written only
+/// to be overwritten. `Vec3<F> v{}` is zero.
+template <class F>
+requires(!Scalar<F>) struct Vec3<F> {
+  F x, y, z;
+};
 
 inline namespace LAMBENT_ISA {
 
@@ -37,8 +42,8 @@ template <class F> constexpr Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class F> F length(const Vec3<F>& a) { return sqrt(dot(a, a)); }
-/// a / |a|; a must not be zero.
-template <class F> Vec3<F> normalize(const Vec3<F>& a) { return a / length(a); }
+/// a / |a|, with one division; a must not be zero.
+template <class F> Vec3<F> normalize(const Vec3<F>& a) { return (F(1) / length(a)) * a; }
 template <class F, class M> Vec3<F> select(const M& m, const Vec3<F>& a, const Vec3<F>& b) {
   return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
 }

@@ -121,14 +121,23 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
     for (const Bvh& tree : world.bvhs) {
       std::uint32_t first = UINT32_MAX, last = 0;
       const auto visit = [&](auto&& self, const BvhNode& node) -> void {
-        if (node.count == 0)
-          return self(self, world.nodes[node.first]), self(self, world.nodes[node.first + 1]);
-        first = std::min(first, node.first), last = std::max(last, node.first + node.count);
+        for (std::uint32_t c = 0; c < node.children; ++c) {
+          if (node.count[c] == 0) {
+            self(self, world.nodes[node.first[c]]);
+          } else {
+            first = std::min(first, node.first[c]);
+            last = std::max(last, node.first[c] + node.count[c]);
+          }
+        }
       };
       visit(visit, world.nodes[tree.root]);
-      const float huge = 1e30f;
-      trees.push_back({std::uint32_t(leaves.size()), tree.extent, false});
-      leaves.push_back({{-huge, -huge, -huge}, first, {huge, huge, huge}, last - first});
+      BvhNode all{};
+      for (int axis = 0; axis < 3; ++axis) all.plane[axis][0] = -1e30f, all.plane[axis + 3][0] = 1e30f;
+      all.first[0] = first, all.count[0] = std::uint16_t(last - first), all.kind[0] = LeafKind::mixed;
+      all.children = 1;
+      trees.push_back(tree);
+      trees.back().root = std::uint32_t(leaves.size());
+      leaves.push_back(all);
     }
     WorldView brute = view;
     brute.nodes = leaves.data();
@@ -172,6 +181,69 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
       }
     }
     EXPECT_GT(hits, 500);
+  }
+}
+
+TEST(Queries, ABeamOfPacketsGivesTheBitsOfEachRay) {
+  // Rays that lie close together go through the tree as one; some that do not are among them.
+  for (double spread : {0.0, 30.0, 3000.0}) {
+    Random random(unsigned(spread) + 5);
+    const Scene scene = random_scene(random, spread);
+    const World world = build_world(scene);
+    const WorldView view = world.view();
+    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+    int hits = 0, blocked_rays = 0;
+    for (int i = 0; i < 1500; ++i) {
+      constexpr int most = max_packets;
+      const int count = 1 + i % most;
+      const double width = std::pow(10, random.number(-4, 0)), reach = random.number(0, 0.1);
+      const Vec3<double> eye = middle + random.point(2);
+      Vec3<double> ahead = random.direction();
+      if (i % 4 == 0) (i % 8 ? ahead.x : ahead.y) = 0;  // along the sides of boxes
+      Vec3<float> o[most * lanes], d[most * lanes];
+      for (int k = 0; k < count * lanes; ++k) {
+        o[k] = cast<float>(eye + reach * width * random.point(1));
+        d[k] = cast<float>(normalize(ahead + width * random.point(0.3)));
+      }
+      QueryRay<QueryPack> rays[most];
+      MaskOf<QueryPack> active[most], open[most];
+      Closest<QueryPack> closest[most];
+      QueryPack t_far[most];
+      for (int p = 0; p < count; ++p) {
+        const auto vectors = [&](const Vec3<float>* v) {
+          return Vec3<QueryPack>{gather<QueryPack>([&](int k) { return v[p * lanes + k].x; }),
+                                 gather<QueryPack>([&](int k) { return v[p * lanes + k].y; }),
+                                 gather<QueryPack>([&](int k) { return v[p * lanes + k].z; })};
+        };
+        rays[p] = QueryRay<QueryPack>(vectors(o), vectors(d));
+        active[p] = gather<QueryPack>([&](int) { return float(random.number(-1, 9)); }) > QueryPack(0.f);
+        open[p] = active[p];
+        closest[p] = {QueryPack(INFINITY)};
+        t_far[p] = QueryPack(1.5f);
+      }
+      find_closest(view, rays, active, count, closest);
+      find_open(view, rays, t_far, count, true, open);
+      for (int k = 0; k < count * lanes; ++k) {
+        const int p = k / lanes, l = k % lanes;
+        if (!lane(active[p], l)) {
+          EXPECT_EQ(lane(closest[p].ids.geometry, l), -1);
+          EXPECT_FALSE(lane(open[p], l));
+          continue;
+        }
+        const QueryRay<float> ray(o[k], d[k]);
+        Closest<float> alone{INFINITY};
+        find_closest(view, ray, true, alone);
+        ASSERT_EQ(bits(lane(closest[p].t, l)), bits(alone.t));
+        ASSERT_EQ(lane(closest[p].ids.instance, l), alone.ids.instance);
+        ASSERT_EQ(lane(closest[p].ids.geometry, l), alone.ids.geometry);
+        ASSERT_EQ(lane(closest[p].ids.primitive, l), alone.ids.primitive);
+        const bool blocked = find_occluded(view, ray, true, 1.5f, true);
+        ASSERT_EQ(lane(open[p], l), !blocked);
+        hits += alone.ids.geometry >= 0, blocked_rays += blocked;
+      }
+    }
+    EXPECT_GT(hits, 5000);
+    EXPECT_GT(blocked_rays, 5000);
   }
 }
 
@@ -252,7 +324,7 @@ TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
       Closest<float> hit{INFINITY};
       find_closest(view, QueryRay<float>{cast<float>(o), cast<float>(d)}, true, hit);
       if (hit.ids.geometry < 0) continue;
-      const SurfacePoint s = surface_at(view, hit.ids, o, d, hit.t);
+      const SurfacePoint<double> s = surface_at(view, hit.ids, o, d, hit.t);
       const PrimitiveKind kind = view.geometries[hit.ids.geometry].kind;
       for (double side : {1.0, -1.0}) {
         const Vec3<double> n = side * s.Ng;
@@ -303,7 +375,7 @@ TEST(Queries, NoRayHitsAFlatPrimitiveThroughTheOrigin) {
                            target = std::pow(10, random.number(-9, 1)) *
                                     (random.number(-1, 1) * a + random.number(-1, 1) * b);
         const Vec3<double> d = normalize(target - o);
-        const SurfacePoint s = surface_at(world.view(), {-1, geometry, 0}, o, d, length(target - o));
+        const SurfacePoint<double> s = surface_at(world.view(), {-1, geometry, 0}, o, d, length(target - o));
         const double side = dot(s.Ng, d) < 0 ? 1 : -1;
         const Vec3<double> way = normalize(side * s.Ng + 0.999 * random.direction());
         const Meeting<float> again =
@@ -342,16 +414,54 @@ TEST(Surface, PointAndNormalAreExact) {
     return surface_at(world.view(), hit.ids, o, d, hit.t);
   };
   const Vec3<double> d{0, 0, -1};
-  const SurfacePoint sphere = look({1.3, 2, 9}, d);
+  const auto sphere = look({1.3, 2, 9}, d);
   EXPECT_NEAR(sphere.P.z, 3 + std::sqrt(0.25 - 0.09), 1e-15);  // z = cz + sqrt(r^2 - dx^2)
   EXPECT_NEAR(sphere.N.x, 0.3 / 0.5, 1e-15);
-  const SurfacePoint ellipsoid = look({10, 1, 9}, d);
+  const auto ellipsoid = look({10, 1, 9}, d);
   EXPECT_NEAR(ellipsoid.P.z, std::sqrt(1 - 0.25), 1e-15);
   // gradient (0, 2y/4, 2z) at (0, 1, sqrt(3)/2)
   EXPECT_NEAR(length(ellipsoid.N - normalize(Vec3<double>{0, 0.5, std::sqrt(3.0)})), 0, 1e-15);
-  const SurfacePoint cone = look({20, 1, 9}, d);
+  const auto cone = look({20, 1, 9}, d);
   EXPECT_NEAR(cone.P.z, 0.5, 1e-15);                                           // radius 1 - y/2
   EXPECT_NEAR(length(cone.N - normalize(Vec3<double>{0, 0.5, 1})), 0, 1e-15);  // slope 1/2
+}
+
+TEST(Surface, AStretchedMeshIsTheSameShownOnceOrTwice) {
+  // Shown once a mesh is taken into the world, shown twice it is placed by instances: one surface, two ways.
+  Random random(77);
+  const Transform stretch = rotation({0, 0, 1}, 30) * scaling({1, 5, -0.7});
+  for (const bool clockwise : {false, true}) {
+    Mesh mesh = ball(8, 0.5, {});
+    if (clockwise)
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    Scene once, twice;
+    add_object(once, mesh, stretch);
+    add_object(twice, mesh, stretch);
+    twice.objects.push_back({"", {}, 0, {0}, translation({100, 0, 0})});
+    const World world_once = build_world(once), world_twice = build_world(twice);
+    ASSERT_EQ(world_once.instances.size(), 0u);
+    ASSERT_EQ(world_twice.instances.size(), 2u);
+    int hits = 0, lifted = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3<double> o = 4.0 * random.direction(), d = normalize(random.point(0.4) - o);
+      const auto look = [&](const World& world) {
+        Closest<float> hit{INFINITY};
+        find_closest(world.view(), QueryRay<float>{cast<float>(o), cast<float>(d)}, true, hit);
+        return hit;
+      };
+      const auto a = look(world_once), b = look(world_twice);
+      if (a.ids.geometry < 0 || a.ids.primitive != b.ids.primitive) continue;
+      const auto sa = surface_at(world_once.view(), a.ids, o, d, a.t),
+                 sb = surface_at(world_twice.view(), b.ids, o, d, b.t);
+      EXPECT_NEAR(length(sa.N - sb.N), 0, 2e-5);  // the corners' normals are floats in the world or before it
+      EXPECT_NEAR(length(sa.lift - sb.lift), 0, 2e-5);
+      EXPECT_GE(dot(sb.N, sb.Ng), 0);
+      ++hits;
+      lifted += length(sb.lift) > 1e-3;
+    }
+    EXPECT_GT(hits, 300);
+    EXPECT_GT(lifted, 100);  // on the side that the ray comes from, whichever way the mesh is wound
+  }
 }
 
 }  // namespace

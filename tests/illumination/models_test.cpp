@@ -217,26 +217,31 @@ TEST(EveryModel, IsFiniteNotNegativeAndLinearInTheLight) {
 }
 
 TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
-  using P = Pack<double, native_float_lanes / 2>;
+  using P = Pack<double, native_float_lanes>;
   using CP = Color<P>;
   for_each_model([]<class Model>() {
     std::mt19937 random(7);
     for (int i = 0; i < 2000; ++i) {
       Situation one[lanes_of<P>];
-      Surface<P, CP> s{};
-      Arriving<P, CP> light{};
-      for (int k = 0; k < lanes_of<P>; ++k) {
-        one[k] = random_situation(random, Model::info);
-        const auto copy = [k](Vec3<P>& to, const Vec3<double>& from) {
-          set_lane(to.x, k, from.x), set_lane(to.y, k, from.y), set_lane(to.z, k, from.z);
-        };
-        copy(s.N, one[k].s.N), copy(s.V, one[k].s.V), copy(light.L, one[k].light.L);
-        set_lane(s.n, k, one[k].s.n);
-        for (int c = 0; c < color_channels; ++c)
-          set_lane(s.kd[c], k, one[k].s.kd[c]), set_lane(s.ks[c], k, one[k].s.ks[c]),
-              set_lane(light.I[c], k, one[k].light.I[c]);
-        for (int j = 0; j < max_model_parameters; ++j) set_lane(s.own[j], k, one[k].s.own[j]);
+      for (Situation& situation : one) situation = random_situation(random, Model::info);
+      const auto vectors = [&](const auto& of) {
+        return Vec3<P>{gather<P>([&](int k) { return of(one[k]).x; }),
+                       gather<P>([&](int k) { return of(one[k]).y; }),
+                       gather<P>([&](int k) { return of(one[k]).z; })};
+      };
+      Surface<P, CP> s;
+      Arriving<P, CP> light;
+      s.N = vectors([](const Situation& a) { return a.s.N; });
+      s.V = vectors([](const Situation& a) { return a.s.V; });
+      light.L = vectors([](const Situation& a) { return a.light.L; });
+      s.n = gather<P>([&](int k) { return one[k].s.n; });
+      for (int c = 0; c < color_channels; ++c) {
+        s.kd[c] = gather<P>([&](int k) { return one[k].s.kd[c]; });
+        s.ks[c] = gather<P>([&](int k) { return one[k].s.ks[c]; });
+        light.I[c] = gather<P>([&](int k) { return one[k].light.I[c]; });
       }
+      for (int j = 0; j < max_model_parameters; ++j)
+        s.own[j] = gather<P>([&](int k) { return one[k].s.own[j]; });
       const auto together = Model::evaluate(s, light);
       for (int k = 0; k < lanes_of<P>; ++k) {
         const auto alone = Model::evaluate(one[k].s, one[k].light);

@@ -245,6 +245,53 @@ objects:
 )" + thing);
 }
 
+TEST(Mirrors, SmoothTrianglesReflectFromTheLiftedPoint) {
+  // A triangle that stands for a bulge, and in its mirror ray a lit sphere. The mirror ray starts at P lifted
+  // to the tangent planes of the corners, and there the point on the sphere must be looked for, too.
+  const V p[] = {{-1, -1, 0}, {1.5, -0.5, 0}, {0, 1.25, 0}}, center{2.4, 0.3, 4.2}, light{-4, 3, 1};
+  V n[3];
+  std::string vertices, normals;
+  for (int i = 0; i < 3; ++i) {
+    n[i] = normalize(V{p[i].x + 0.6, p[i].y, 2});
+    vertices += fmt::format("[{}, {}, {}], ", p[i].x, p[i].y, p[i].z);
+    normals += fmt::format("[{}, {}, {}], ", n[i].x, n[i].y, n[i].z);
+  }
+  const Image image = picture(fmt::format(R"(
+lambent: 1
+camera: {{eye: [0, 0, 5], target: [0, 0, 0], fov: 10}}
+image: {{size: [1, 1]}}
+illumination: {{model: conventional, ambient: 0}}
+lights: [{{point: {{position: [-4, 3, 1]}}}}]
+materials:
+  - {{name: mirror, diffuse: 0, reflect: 1}}
+  - {{name: matt, diffuse: 1}}
+objects:
+  - {{mesh: {{vertices: [{}], normals: [{}], triangles: [[0, 1, 2]]}}, material: mirror}}
+  - {{sphere: {{center: [2.4, 0.3, 4.2], radius: 1.2}}, material: matt}}
+)",
+                                          vertices, normals));
+  // The eye ray meets the triangle at the origin: sum b_i p_i = 0, the b_i in the ratio of the areas
+  // opposite.
+  double b[3];
+  for (int i = 0; i < 3; ++i) b[i] = cross(p[(i + 1) % 3], p[(i + 2) % 3]).z;
+  const double area = b[0] + b[1] + b[2];
+  V N{}, lift{};
+  for (int i = 0; i < 3; ++i) {
+    N = N + b[i] / area * n[i];
+    lift = lift + b[i] / area * plus(dot(p[i], n[i])) * n[i];  // p_i is 0 - P away from P
+  }
+  N = normalize(N);
+  const V mirror = 2 * N.z * N - V{0, 0, 1};
+  const auto brightness = [&](const V& start) {
+    const V f = start - center;
+    const double middle = -dot(f, mirror);
+    const V q = start + (middle - std::sqrt(1.2 * 1.2 - dot(f, f) + middle * middle)) * mirror;
+    return plus(dot(normalize(q - center), normalize(light - q)));
+  };
+  EXPECT_GT(std::fabs(brightness(lift) - brightness({})), 0.02);  // else this would show nothing
+  EXPECT_NEAR(image.pixel(0, 0)[0], brightness(lift), 1e-6);
+}
+
 TEST(Shadows, AreHardAndTintedByWhatTransmits) {
   const auto expect = [](const Image& image, double r, double g, double b) {
     EXPECT_FLOAT_EQ(image.pixel(0, 0)[0], float(r));

@@ -51,7 +51,7 @@ TEST(SpotLight, FadesBetweenTheInnerAndTheOuterCone) {
 }
 
 TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
-  using P = Pack<double, native_float_lanes / 2>;
+  using P = Pack<double, native_float_lanes>;
   const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2},
                              DirectionalLight{{1, -2, 0.5}, {{1, 1, 1}}, 1},
                              SpotLight{{0, 3, 0}, {0.2, 0, 0.1}, {{1, 1, 1}}, 2, 70, 0.4, 3}};
@@ -60,9 +60,8 @@ TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
   std::uniform_real_distribution<double> u(-3, 3);
   for (const AnyLight& any : lights)
     for (int i = 0; i < 1000; ++i) {
-      Vec3<P> p;
-      for (int k = 0; k < lanes_of<P>; ++k)
-        set_lane(p.x, k, u(random)), set_lane(p.y, k, u(random)), set_lane(p.z, k, u(random));
+      const auto numbers = [&] { return gather<P>([&](int) { return u(random); }); };
+      const Vec3<P> p{numbers(), numbers(), numbers()};
       with_light(any, [&](const auto& light) {
         const auto together = sample(light, p, P(0.5), P(0.5));
         for (int k = 0; k < lanes_of<P>; ++k) {
