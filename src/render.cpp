@@ -53,8 +53,10 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const auto prepared = prepare(*scene);
   const double build = clock.lap();
   Film film(scene->image);
-  const TileRun run =
-      render_tiles(prepared->frame, kernel, threads, std::max(1, options.tile_size), film, options.progress);
+  const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
+  const TileRun run = scene->image.adaptive && scene->image.pattern != Pattern::corners
+                          ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
+                          : render_tiles(prepared->frame, kernel, film, tile_options);
 
   RenderResult result;
   result.image = develop(std::move(film), scene->image);

@@ -7,72 +7,152 @@
 #include <thread>
 #include <vector>
 
+#include "film/adaptive.h"
+
 namespace lambent {
 namespace {
 
 /// The pixels of a tile in squares of 4 by 4: the rays of a packet then lie close together.
 void list_pixels(int x0, int y0, int x1, int y1, std::vector<Pixel>& pixels) {
   constexpr int square = 4;
-  pixels.clear();
   for (int y = y0; y < y1; y += square)
     for (int x = x0; x < x1; x += square)
       for (int j = y; j < std::min(y + square, y1); ++j)
         for (int i = x; i < std::min(x + square, x1); ++i) pixels.push_back({i, j});
 }
 
+/// What a thread keeps from task to task.
+struct Worker {
+  Scratch scratch;
+  RayCounts counts;
+  std::vector<Pixel> pixels;
+  std::vector<double> sums;
+  std::vector<float> least_and_greatest;
+};
+
+/// Threads that share out tasks. Which thread takes which task is chance, and does not matter.
+class Crew {
+ public:
+  Crew(const TileOptions& options, TileRun& run) : options_(options), run_(run) {}
+
+  /// Calls task(i, worker) for each i below `count`. The progress goes from `from` to `to`.
+  template <class Task> void share(std::int64_t count, double from, double to, const Task& task) {
+    std::atomic<std::int64_t> next{0};
+    std::atomic<bool> stop{false};
+    std::mutex mutex;  // guards what follows
+    std::int64_t done = 0;
+    std::exception_ptr failure;
+    const auto work = [&] {
+      try {
+        Worker worker;
+        for (std::int64_t i; !stop && (i = next++) < count;) {
+          task(i, worker);
+          if (!options_.progress) continue;
+          const std::lock_guard lock(mutex);
+          if (!stop && !options_.progress(from + (to - from) * double(++done) / double(count)))
+            stop = run_.cancelled = true;
+        }
+        const std::lock_guard lock(mutex);
+        run_.counts.eye += worker.counts.eye;
+        run_.counts.eye_hits += worker.counts.eye_hits;
+        run_.counts.reflection += worker.counts.reflection;
+        run_.counts.refraction += worker.counts.refraction;
+        run_.counts.shadow += worker.counts.shadow;
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        failure = std::current_exception();
+        stop = true;
+      }
+    };
+    {
+      std::vector<std::jthread> crew;
+      for (std::int64_t i = 1; i < std::min<std::int64_t>(options_.threads, count); ++i)
+        crew.emplace_back(work);
+      work();
+    }
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  const TileOptions& options_;
+  TileRun& run_;
+};
+
 }  // namespace
 
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, Film& film,
-                     const std::function<bool(double)>& progress) {
-  const std::int64_t columns = (film.width + tile_size - 1) / tile_size,
-                     rows = (film.height + tile_size - 1) / tile_size;
-  const std::int64_t tiles = columns * rows;
-  std::atomic<std::int64_t> next{0};
-  std::atomic<bool> stop{false};
-  std::mutex mutex;  // guards what follows
-  std::int64_t done = 0;
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
-  std::exception_ptr failure;
-
-  const auto work = [&] {
-    try {
-      Scratch scratch;
-      std::vector<Pixel> pixels;
-      std::vector<double> sums;
-      RayCounts counts;
-      for (std::int64_t i; !stop && (i = next++) < tiles;) {
-        const int x = int(i % columns) * tile_size, y = int(i / columns) * tile_size;
-        list_pixels(x, y, std::min(x + tile_size, film.width), std::min(y + tile_size, film.height), pixels);
-        sums.assign(pixels.size() * color_channels, 0);
-        kernel.render(frame, {pixels.data(), std::uint32_t(pixels.size()), 0, frame.samples, sums.data()},
-                      scratch, counts);
-        for (std::size_t p = 0; p < pixels.size(); ++p) {
-          float* to = &film.colors[(std::size_t(pixels[p].y) * film.width + pixels[p].x) * color_channels];
-          for (int c = 0; c < color_channels; ++c)
-            to[c] = float(sums[p * color_channels + c] / frame.samples);
-        }
-        if (!progress) continue;
-        const std::lock_guard lock(mutex);
-        if (!stop && !progress(double(++done) / double(tiles))) stop = run.cancelled = true;
-      }
-      const std::lock_guard lock(mutex);
-      run.counts.eye += counts.eye;
-      run.counts.eye_hits += counts.eye_hits;
-      run.counts.reflection += counts.reflection;
-      run.counts.refraction += counts.refraction;
-      run.counts.shadow += counts.shadow;
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      failure = std::current_exception();
-      stop = true;
+  const int size = options.tile_size;
+  const std::int64_t columns = (film.width + size - 1) / size, rows = (film.height + size - 1) / size;
+  Crew(options, run).share(columns * rows, 0, 1, [&](std::int64_t i, Worker& worker) {
+    const int x = int(i % columns) * size, y = int(i / columns) * size;
+    worker.pixels.clear();
+    list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), worker.pixels);
+    worker.sums.assign(worker.pixels.size() * color_channels, 0);
+    kernel.render(frame,
+                  {worker.pixels.data(), std::uint32_t(worker.pixels.size()), 0, frame.samples,
+                   worker.sums.data(), nullptr},
+                  worker.scratch, worker.counts);
+    for (std::size_t p = 0; p < worker.pixels.size(); ++p) {
+      const Pixel& pixel = worker.pixels[p];
+      float* to = &film.colors[(std::size_t(pixel.y) * film.width + pixel.x) * color_channels];
+      for (int c = 0; c < color_channels; ++c)
+        to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
     }
-  };
-  {
-    std::vector<std::jthread> crew;
-    for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, tiles); ++i) crew.emplace_back(work);
-    work();
+  });
+  return run;
+}
+
+TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
+                          const TileOptions& options) {
+  TileRun run;
+  const int size = options.tile_size;
+  AdaptiveFilm samples(film, settings);
+  std::vector<Pixel> wanted;
+  for (int y = 0; y < film.height; y += size)
+    for (int x = 0; x < film.width; x += size)
+      list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
+
+  const int start = settings.adaptive->start, max = settings.adaptive->max;
+  const std::int64_t at_a_time = std::int64_t(size) * size;
+  double progress = 0;
+  for (int first = 0, end = start; !wanted.empty() && !run.cancelled;) {
+    // How many goes there will be is not known: each counts as half of what is left.
+    const double progress_then = end == max ? 1 : (1 + progress) / 2;
+    const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
+    Crew(options, run).share(tasks, progress, progress_then, [&](std::int64_t i, Worker& worker) {
+      const Pixel* pixels = &wanted[i * at_a_time];
+      const auto count =
+          std::size_t(std::min<std::int64_t>(at_a_time, std::int64_t(wanted.size()) - i * at_a_time));
+      worker.sums.resize(count * color_channels);
+      worker.least_and_greatest.resize(count * 2 * color_channels);
+      const auto exchange = [&](const auto& each) {
+        for (std::size_t p = 0; p < count; ++p)
+          for (int c = 0; c < color_channels; ++c) {
+            float* least = &worker.least_and_greatest[p * 2 * color_channels + c];
+            each(samples.at(pixels[p].x, pixels[p].y), c, worker.sums[p * color_channels + c], least[0],
+                 least[color_channels]);
+          }
+      };
+      exchange([](const AdaptiveFilm::Pixel& from, int c, double& sum, float& least, float& greatest) {
+        sum = from.sum[c], least = from.least[c], greatest = from.greatest[c];
+      });
+      kernel.render(
+          frame,
+          {pixels, std::uint32_t(count), first, end, worker.sums.data(), worker.least_and_greatest.data()},
+          worker.scratch, worker.counts);
+      exchange([&](AdaptiveFilm::Pixel& to, int c, double sum, float least, float greatest) {
+        to.sum[c] = sum, to.least[c] = least, to.greatest[c] = greatest;
+        to.samples = end;
+      });
+    });
+    if (end == max) break;
+    std::erase_if(wanted, [&](const Pixel& pixel) { return !samples.needs_more(pixel.x, pixel.y); });
+    first = end;
+    end = std::min(end * 4, max);
+    progress = progress_then;
   }
-  if (failure) std::rethrow_exception(failure);
+  samples.develop(film);
   return run;
 }
 

@@ -11,9 +11,18 @@ struct TileRun {
   bool cancelled = false;
 };
 
-/// Renders every tile of the film with `threads` threads. Which thread takes which tile is chance, and does
-/// not matter: a tile depends on the frame alone. `progress` as in RenderOptions.
-TileRun render_tiles(const Frame& frame, const Kernel& kernel, int threads, int tile_size, Film& film,
-                     const std::function<bool(double)>& progress);
+struct TileOptions {
+  int threads = 1;
+  int tile_size = 32;                    ///< Pixels; at least 1.
+  std::function<bool(double)> progress;  ///< As in RenderOptions.
+};
+
+/// Renders every tile of the film: all samples of the frame. A tile depends on the frame alone.
+TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options);
+
+/// The same with samples where the picture needs them (settings.adaptive, which must be set): in several goes
+/// over the film, each over the pixels that the one before has left uncertain.
+TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
+                          const TileOptions& options);
 
 }  // namespace lambent

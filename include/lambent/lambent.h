@@ -58,7 +58,8 @@ struct SceneSummary {
     std::string detail;            ///< "key", "value" pairs for people: "diffuse 0.8 0.1 0.1, shininess 32".
   };
   std::string name;
-  int width = 0, height = 0, samples = 0;
+  int width = 0, height = 0;
+  int samples = 0;  ///< Of each pixel; with adaptive samples the most that one may get.
   std::string camera, model, integrator;  ///< For people.
   double lower[3] = {0, 0, 0},
          upper[3] = {0, 0,

@@ -33,4 +33,21 @@ std::vector<Vec2<double>> sample_pattern(int samples, Filter filter) {
   return points;
 }
 
+std::vector<Vec2<double>> progressive_pattern(int samples, int start, Filter filter) {
+  const double shift = 0.5 / start;
+  const auto moved = [&](std::uint32_t bits) {
+    const double a = bits * 0x1p-32 + shift;
+    return spread(a < 1 ? a : a - 1, filter);
+  };
+  std::vector<Vec2<double>> points(samples);
+  for (int i = 0; i < samples; ++i) {
+    // The second coordinate's direction numbers: v[0] = 1/2, v[k] = v[k - 1] xor v[k - 1] / 2.
+    std::uint32_t y = 0, direction = 1u << 31;
+    for (std::uint32_t rest = std::uint32_t(i); rest; rest >>= 1, direction ^= direction >> 1)
+      if (rest & 1) y ^= direction;
+    points[i] = {moved(reversed_bits(std::uint32_t(i))), moved(y)};
+  }
+  return points;
+}
+
 }  // namespace lambent

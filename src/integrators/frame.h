@@ -77,6 +77,8 @@ struct PixelTask {
   std::uint32_t count;
   int first_sample, end_sample;
   double* sums;  ///< color_channels for each pixel: the samples' colours are added to it, in their order.
+  float*
+      least_and_greatest;  ///< Null, or for each pixel the least of each channel so far, then the greatest.
 };
 
 /// Columns of equal length that grow together; a struct of arrays says which they are by `columns(f)`. They
@@ -122,7 +124,9 @@ struct ColorQueue {
 struct Scratch {
   RayQueue rays, next_rays;
   ColorQueue samples;
-  Column<std::uint32_t> open;  ///< For each light and packet of a block a bit for each lane that it reaches.
+  Column<std::uint32_t> reaching;  ///< The lights that may reach some of the hits at hand.
+  Column<std::uint32_t>
+      open;  ///< For each of these and each packet of a block a bit for each lane that it reaches.
 
   Scratch() = default;
   Scratch(const Scratch&) = delete;

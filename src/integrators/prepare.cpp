@@ -57,7 +57,10 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.width = scene.image.width;
   frame.height = scene.image.height;
   prepared->pattern =
-      corners ? std::vector<Vec2<double>>{{0, 0}} : sample_pattern(scene.image.samples, scene.image.filter);
+      corners ? std::vector<Vec2<double>>{{0, 0}}
+      : scene.image.adaptive
+          ? progressive_pattern(scene.image.adaptive->max, scene.image.adaptive->start, scene.image.filter)
+          : sample_pattern(scene.image.samples, scene.image.filter);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
 

@@ -40,6 +40,7 @@ void Scratch::grow(Column<std::uint32_t>& column, std::uint32_t capacity) {
 Scratch::~Scratch() {
   release(rays), release(next_rays), release(samples);
   std::free(open.data);
+  std::free(reaching.data);
 }
 
 }  // namespace lambent

@@ -59,6 +59,7 @@ struct Work {
       Scratch::grow(scratch.rays, batch_size);
       Scratch::grow(scratch.next_rays, batch_size);
       Scratch::grow(scratch.open, std::uint32_t(frame.light_count) * beam);
+      Scratch::grow(scratch.reaching, std::uint32_t(frame.light_count));
     }
     const std::uint64_t samples = std::uint64_t(task.count) * samples_per_pixel();
     for (std::uint64_t first = 0; first < samples; first += batch_size) {
@@ -67,6 +68,7 @@ struct Work {
       for (int depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
         sort_into_groups();
+        choose_lights();
         if (depth == 1) counts.eye_hits += hit_count();
         scratch.next_rays.count = 0;
         for (int group = 0; group < group_count; ++group)
@@ -210,6 +212,35 @@ struct Work {
       scratch.samples.color[c][sample] += scratch.rays.weight[c][ray] * color[c];
   }
 
+  int light_count = 0;  ///< How many of scratch.reaching.
+
+  /// Lights that cannot reach any of the hits at hand (spots that shine elsewhere, lights too far away) are
+  /// left out for all of them at once: nothing would arrive of them.
+  void choose_lights() {
+    const RayQueue& rays = scratch.rays;
+    float lower[3], upper[3];
+    const float infinity = __builtin_inff();
+    for (int a = 0; a < 3; ++a) lower[a] = infinity, upper[a] = -infinity;
+    for (std::uint32_t i = 0; i < hit_count(); ++i) {
+      const std::uint32_t ray = rays.order[i];
+      const float t = rays.t[ray],
+                  at[3] = {float(rays.ox[ray] + t * rays.dx[ray]), float(rays.oy[ray] + t * rays.dy[ray]),
+                           float(rays.oz[ray] + t * rays.dz[ray])};
+      for (int a = 0; a < 3; ++a) lower[a] = min(lower[a], at[a]), upper[a] = max(upper[a], at[a]);
+    }
+    // Some more than the queries' rounding: the surface points are found anew in double.
+    float size = 0;
+    for (int a = 0; a < 3; ++a) size = max(size, max(abs(lower[a]), abs(upper[a])));
+    const double margin = 1e-4 * size;
+    const Reach box{{lower[0] - margin, lower[1] - margin, lower[2] - margin},
+                    {upper[0] + margin, upper[1] + margin, upper[2] + margin}};
+    light_count = 0;
+    if (hit_count() == 0) return;
+    for (int l = 0; l < frame.light_count; ++l)
+      if (with_light(frame.lights[l], [&](const auto& light) { return reaches(light, box); }))
+        scratch.reaching[light_count++] = std::uint32_t(l);
+  }
+
   // ---- hits, a packet at a time
 
   /// The rays of a packet whose hits are looked at together; lanes left over repeat the last.
@@ -255,7 +286,7 @@ struct Work {
         block.at[block.count] = lanes_from(first, last);
         block.hits[block.count] = look(block.at[block.count]);
       }
-      for (int l = 0; l < frame.light_count; ++l) look_at_light(l, block);
+      for (int i = 0; i < light_count; ++i) look_at_light(i, block);
       for (int i = 0; i < block.count; ++i) {
         with_model(ModelId(group % model_count), [&]<class Model>() { shade<Model>(block, i); });
         if (follow_on) follow(block.at[i], block.hits[i]);
@@ -334,14 +365,15 @@ struct Work {
     for (int c = 0; c < color_channels; ++c)
       Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, hits.R, minimum);
 
-    const auto arriving = [&](int l) -> Arriving<F, C> {
-      const std::uint32_t open = scratch.open[std::size_t(l) * beam + packet];
+    const auto arriving = [&](int number) -> Arriving<F, C> {
+      const auto l = int(scratch.reaching[number]);
+      const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
       if (open == 0) return {hits.N, grey(F(0))};
       const auto light = sample_light(l, hits.P);
       return {light.L, share_that_passes(open, hits, light) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };
-    const C I = illuminate<Model>(s, Ia, frame.light_count, arriving);
+    const C I = illuminate<Model>(s, Ia, light_count, arriving);
     add(at, colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; }) + I);
   }
 
@@ -351,8 +383,9 @@ struct Work {
 
   /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
   /// surface (N.L <= 0) or dark in this direction.
-  LAMBENT_FLATTEN void look_at_light(int l, const Block& block) {
-    std::uint32_t* open_bits = &scratch.open[std::size_t(l) * beam];
+  LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
+    const auto l = int(scratch.reaching[number]);
+    std::uint32_t* open_bits = &scratch.open[std::size_t(number) * beam];
     QueryRay<Query> rays[beam];
     Query t_far[beam];
     MaskOf<Query> open[beam];
@@ -568,6 +601,14 @@ struct Work {
     for (std::uint32_t i = 0; i < count; ++i) {
       for (int c = 0; c < color_channels; ++c)
         task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
+      if (task.least_and_greatest) {
+        float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
+        float* greatest = least + color_channels;
+        for (int c = 0; c < color_channels; ++c) {
+          const auto value = float(scratch.samples.color[c][i]);
+          least[c] = min(least[c], value), greatest[c] = max(greatest[c], value);
+        }
+      }
       if (--left == 0) left = samples_per_pixel(), ++pixel;
     }
   }

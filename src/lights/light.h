@@ -7,6 +7,8 @@
 //   template <class F> LightSample<F, Color<F>> sample(const TheLight&, const Vec3<F>& P, F u, F v)
 //
 // which answers for one point on the light, chosen by u and v in [0, 1); (0.5, 0.5) is the light's centre.
+// A light that lights only part of the world may say so with `reaches`, below.
+//
 // What it hands out is the colour Il before attenuation: how light fades with distance is the scene's choice,
 // not the light's. The lecture's name for all this is light_t.
 
@@ -47,6 +49,23 @@ template <class F> Color<F> emitted(const Rgb& color, double intensity) {
   return result;
 }
 template <class F> Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
+
+/// A box in the world, with its ends.
+struct Reach {
+  Vec3<double> lower, upper;
+};
+
+/// Whether a light may light anything in a box: true where the light does not say. Lights that cannot reach
+/// are not asked for any point in it. `sample` must hand out black wherever this says no.
+template <class Light> bool reaches(const Light&, const Reach&) { return true; }
+
+/// Whether a box comes as near to a point as `distance`.
+inline bool comes_near(const Reach& box, const Vec3<double>& point, double distance) {
+  const auto beyond = [](double low, double high, double at) { return max(max(low - at, at - high), 0.0); };
+  const Vec3<double> gap{beyond(box.lower.x, box.upper.x, point.x), beyond(box.lower.y, box.upper.y, point.y),
+                         beyond(box.lower.z, box.upper.z, point.z)};
+  return dot(gap, gap) <= distance * distance * (1 + 1e-9);
+}
 
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -66,21 +66,33 @@ enum class Encoding {
   none,  ///< The linear values as they are: the pictures of the 1980s, whose colours were meant so.
 };
 
+/// Samples where the picture needs them: `start` for every pixel, then four times as many, and again, up to
+/// `max`, for those that differ so much in themselves or from their neighbours that they may be off by
+/// `error`.
+struct AdaptiveSamples {
+  int start = 4, max = 256;
+  double error = 1;
+};
+template <>
+inline constexpr Parameter<AdaptiveSamples> parameters_of<AdaptiveSamples>[] = {
+    {"start", &AdaptiveSamples::start, {4, 65536}, "", "Samples of every pixel."},
+    {"max", &AdaptiveSamples::max, {4, 65536}, "", "Samples of the most difficult pixels; at least `start`."},
+    {"error",
+     &AdaptiveSamples::error,
+     {0, 255},
+     "steps of 8 bits",
+     "How far a pixel may be from what `max` samples give; 0 lets no difference pass."},
+};
+
 struct ImageSettings {
   int width = 1280, height = 720;
   int samples = 1;
+  std::optional<AdaptiveSamples> adaptive;  ///< In place of `samples`.
   Pattern pattern = Pattern::stratified;
   Filter filter = Filter::box;
   Encoding encoding = Encoding::srgb;
 };
-template <>
-inline constexpr Parameter<ImageSettings> parameters_of<ImageSettings>[] = {
-    {"samples",
-     &ImageSettings::samples,
-     {1, 65536},
-     "",
-     "Rays through each pixel; with one, it goes through the centre."},
-};
+inline constexpr Range sample_range{1, 65536};
 
 /// The choices of the lecture that hold for the whole scene.
 struct Illumination {

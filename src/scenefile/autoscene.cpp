@@ -193,7 +193,8 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
   const Rounding rounded(ball.radius);
   const bool own_lights = !model.lights.empty();
 
-  ImageSettings image{.width = width, .height = height, .samples = 16};
+  ImageSettings image;
+  image.width = width, image.height = height, image.samples = 16;
   if (model.image) image = *model.image;
   Camera camera =
       model.camera ? *model.camera : framing_camera(box, ball, double(image.width) / image.height);

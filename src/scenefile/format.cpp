@@ -184,8 +184,11 @@ Format make_format() {
       "image", "the picture's size and how its pixels are sampled",
       std::vector{with(field("size", FieldType::image_size,
                              fmt::format("[{}, {}]", image.width, image.height), "Width and height."),
-                       {1, 65536}, "pixels")} +
-          fields_of<ImageSettings>() +
+                       {1, 65536}, "pixels"),
+                  with(field("samples", FieldType::samples, fmt::to_string(image.samples),
+                             "Rays through each pixel; with one, it goes through the centre. Or {adaptive: "
+                             "{start, max, error}}: as many as each pixel needs."),
+                       sample_range, "")} +
           std::vector{
               choice("filter", names_of<Filter>(), text_of(image.filter),
                      "How samples make a pixel: `box` is their mean, `tent` also weighs in those of the "
@@ -198,6 +201,7 @@ Format make_format() {
                      "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as "
                      "they are, as "
                      "renderers once did. EXR is always linear.")});
+  f.adaptive = section("adaptive", "samples where the picture needs them", fields_of<AdaptiveSamples>());
   f.attenuation =
       section("attenuation", "1 / (constant + linear r + quadratic r^2)", fields_of<AttenuationSettings>());
   f.illumination = section(
@@ -326,6 +330,8 @@ std::string type_name(FieldType type) {
       return "3 rows of 4 numbers";
     case FieldType::attenuation:
       return "choice or mapping";
+    case FieldType::samples:
+      return "integer or mapping";
     case FieldType::material:
       return "name or mapping";
     case FieldType::transform:

@@ -33,6 +33,7 @@ enum class FieldType {
   axis,         // x, y, z or a direction
   matrix,       // three rows of four
   attenuation,  // a choice or a mapping
+  samples,      // a whole number or a mapping
   material,     // a name or a mapping
   transform,    // a step or a list of steps
   section,      // a mapping with fields of its own
@@ -60,7 +61,7 @@ struct Section {
 };
 
 struct Format {
-  Section top, camera, image, illumination, attenuation, integrator, material;
+  Section top, camera, image, adaptive, illumination, attenuation, integrator, material;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.

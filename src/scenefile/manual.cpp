@@ -187,6 +187,19 @@ std::string scene_manual() {
       table(f.camera.fields);
   text += "## Image\n\n" + table(f.image.fields);
   text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";
+  text +=
+      "`samples: {adaptive: {}}` takes `start` samples of every pixel, and then four times as many, and "
+      "again, "
+      "up to `max`, of those where n samples may be off by more than `error`. The measure is D / (2 "
+      "n^(3/4)), with D "
+      "the largest difference of any two samples in the pixel and its eight neighbours, in steps of 8 bits "
+      "as the "
+      "eye sees them: n well-spread samples of an edge of that height are off by about as much. What lies "
+      "wholly "
+      "between the first samples of a pixel and of all its neighbours is not seen: give such pictures a "
+      "larger "
+      "`start`. The result is the same whatever the machine, as all else.\n\n" +
+      table(f.adaptive.fields);
   text += "## Illumination\n\n" + std::string(illumination_text) + table(f.illumination.fields);
   text += "An `attenuation` of one's own is a mapping; at least one of its numbers is not 0:\n\n" +
           table(f.attenuation.fields);

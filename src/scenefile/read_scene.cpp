@@ -53,12 +53,45 @@ void read_camera(Reader& reader, const Value& value, Scene& scene) {
               : "the size of a perspective picture is its 'fov'");
 }
 
+void read_samples(Reader& reader, const Value& value, ImageSettings& image) {
+  if (value.node->kind != Node::Kind::mapping) {
+    reader.integer(value, sample_range, image.samples);
+    return;
+  }
+  Field kind;
+  kind.name = "adaptive", kind.type = FieldType::section;
+  const std::vector<Field> kinds{kind};
+  const auto ways = reader.mapping(value, kinds, "the samples");
+  if (!ways) return;
+  const Value* adaptive = ways->find("adaptive");
+  if (adaptive == nullptr) {
+    if (!ways->unknown_keys)
+      reader.error(value.place(), "the samples are neither a number nor 'adaptive'",
+                   "for example samples: {adaptive: {error: 1}}");
+    return;
+  }
+  AdaptiveSamples settings;
+  const auto& fields = format().adaptive.fields;
+  if (adaptive->node->kind != Node::Kind::nothing) {
+    const auto values = reader.mapping(*adaptive, fields, "adaptive samples");
+    if (!values || !reader.table(*values, fields, settings)) return;
+    if (settings.max < settings.start) {
+      const Value* max = values->find("max");
+      reader.error((max ? *max : *values->find("start")).place(),
+                   fmt::format("at most {} samples, but {} to start with", settings.max, settings.start),
+                   "'max' is at least 'start'");
+      return;
+    }
+  }
+  image.adaptive = settings;
+}
+
 void read_image(Reader& reader, const Value& value, ImageSettings& image) {
   constexpr double most_pixels = 268435456;  // 2^28: three floats each are 3 GiB
   const auto& fields = format().image.fields;
   const auto values = reader.mapping(value, fields, "the image");
   if (!values) return;
-  reader.table(*values, fields, image);
+  if (const Value* samples = values->find("samples")) read_samples(reader, *samples, image);
   if (const Value* filter = values->find("filter")) reader.choice(*filter, image.filter);
   if (const Value* pattern = values->find("pattern")) reader.choice(*pattern, image.pattern);
   if (const Value* encoding = values->find("encoding")) reader.choice(*encoding, image.encoding);

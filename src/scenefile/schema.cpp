@@ -94,6 +94,13 @@ Json value_of_type(const Field& field) {
       return array_of(array_of(number_in(range), 4, 4), 3, 3);
     case FieldType::attenuation:
       return {{"oneOf", {words(names_of<Attenuation>()), reference("attenuation")}}};
+    case FieldType::samples:
+      return {{"oneOf",
+               {{{"type", "integer"}, {"minimum", range.min}, {"maximum", range.max}},
+                Json{{"type", "object"},
+                     {"properties", {{"adaptive", reference("adaptive")}}},
+                     {"required", {"adaptive"}},
+                     {"additionalProperties", false}}}}};
     case FieldType::material:
       return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("material")}}};
     case FieldType::transform:
@@ -144,6 +151,7 @@ std::string scene_schema() {
   Json& definitions = schema["definitions"] = Json::object();
   definitions["camera"] = object_of(f.camera);
   definitions["image"] = object_of(f.image);
+  definitions["adaptive"] = object_of(f.adaptive);
   definitions["illumination"] = object_of(f.illumination);
   definitions["attenuation"] = object_of(f.attenuation);
   definitions["attenuation"]["minProperties"] = 1;

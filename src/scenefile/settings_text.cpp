@@ -13,8 +13,8 @@ Metadata settings_metadata(const Scene& scene) {
   std::string s;
   s += fmt::format("camera: {{projection: {}, {}}}\n", text_of(scene.camera.projection),
                    settings_text(scene.camera, Wanted::all));
-  s += fmt::format("image: {{size: [{}, {}], {}, pattern: {}, filter: {}, encoding: {}}}\n",
-                   scene.image.width, scene.image.height, settings_text(scene.image, Wanted::all),
+  s += fmt::format("image: {{size: [{}, {}], samples: {}, pattern: {}, filter: {}, encoding: {}}}\n",
+                   scene.image.width, scene.image.height, samples_text(scene.image),
                    text_of(scene.image.pattern), text_of(scene.image.filter), text_of(scene.image.encoding));
   s += fmt::format("illumination: {{model: {}, attenuation: {}, ambient_attenuation: {}, {}}}\n", model.name,
                    text_of(i.attenuation.value_or(model.attenuation)),

@@ -77,7 +77,7 @@ SceneSummary summarize(const ScenePtr& pointer) {
   summary.name = scene.name;
   summary.width = scene.image.width;
   summary.height = scene.image.height;
-  summary.samples = scene.image.samples;
+  summary.samples = scene.image.adaptive ? scene.image.adaptive->max : scene.image.samples;
   summary.camera = camera_text(scene.camera);
   summary.model = model_text(scene.illumination);
   summary.integrator = fmt::format("whitted, max_depth {}, shadows {}", scene.whitted.max_depth,

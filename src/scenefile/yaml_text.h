@@ -44,6 +44,12 @@ template <class S> std::string settings_text(const S& settings, Wanted wanted) {
   return result;
 }
 
+/// "16", or "{adaptive: {start: 4, max: 256, error: 1}}".
+inline std::string samples_text(const ImageSettings& image) {
+  if (!image.adaptive) return value_text(image.samples);
+  return fmt::format("{{adaptive: {{{}}}}}", settings_text(*image.adaptive, Wanted::all));
+}
+
 /// "{name: "key", point: {position: [3, 4, 4]}}".
 std::string light_text(const Light& light, Wanted wanted);
 

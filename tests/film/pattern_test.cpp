@@ -46,6 +46,28 @@ TEST(Pattern, EveryDyadicBoxHoldsOneSampleWhereTheCountIsAPowerOfTwo) {
     }
 }
 
+TEST(Pattern, EveryBeginningOfAProgressivePatternIsSpreadEvenly) {
+  // The first 4^k points are a net: every dyadic box of that area holds one, moved by a whole or half cell.
+  const int start = 4;
+  const auto points = progressive_pattern(256, start, Filter::box);
+  for (const int bits : {2, 4, 6, 8})
+    for (int wide = 0; wide <= bits; ++wide) {
+      const int columns = 1 << wide, rows = 1 << (bits - wide);
+      std::set<int> boxes;
+      const auto cell = [&](double a, int cells) {  // as if not moved
+        const double back = a - 0.5 / start;
+        return int((back < 0 ? back + 1 : back) * cells);
+      };
+      for (int i = 0; i < 1 << bits; ++i)
+        boxes.insert(cell(points[i].y, rows) * columns + cell(points[i].x, columns));
+      EXPECT_EQ(int(boxes.size()), 1 << bits) << columns << " x " << rows;
+    }
+  double x = 0, y = 0;
+  for (int i = 0; i < start; ++i) x += points[i].x, y += points[i].y;
+  EXPECT_EQ(x / start, 0.5);  // balanced around the centre
+  EXPECT_EQ(y / start, 0.5);
+}
+
 TEST(Pattern, TentHasTheTentsVariance) {
   // The variance of the weight 1 - |x| on [-1, 1] is 1/6.
   double sum = 0;

@@ -418,6 +418,122 @@ TEST(SameBits, APixelDoesNotDependOnTheOthers) {
   EXPECT_EQ(whole.data, tiny.data);
 }
 
+TEST(SameBits, WithAdaptiveSamplesToo) {
+  const ScenePtr scene =
+      parse_scene(everything, "scene", {{{"image.samples", "{adaptive: {start: 4, max: 64, error: 2}}"}}});
+  const RenderResult reference = render(scene, {1, 32, "baseline", {}});
+  for (const RenderOptions& options : {RenderOptions{2, 7, "", {}}, RenderOptions{3, 1000, "baseline", {}}}) {
+    const RenderResult result = render(scene, options);
+    EXPECT_EQ(result.image.data, reference.image.data) << options.tile_size;
+    EXPECT_EQ(result.stats.rays.eye, reference.stats.rays.eye);
+  }
+}
+
+// ---- samples where the picture needs them
+
+/// The 8-bit value of a linear one, by the sRGB standard.
+int eight_bits(double a) {
+  a = std::min(std::max(a, 0.0), 1.0);
+  return int(255 * (a <= 0.0031308 ? 12.92 * a : 1.055 * std::pow(a, 1 / 2.4) - 0.055) + 0.5);
+}
+
+TEST(AdaptiveSamples, AreWithinTheirErrorOfAllSamples) {
+  // Of 1000 pixels 999 are within `error` steps of 8 bits of what all samples give, with a fraction of the
+  // rays.
+  const auto with = [](const std::string& samples) {
+    return render(
+        parse_scene(everything, "scene",
+                    {{{"image.samples", samples}, {"image.size", "[194, 122]"}, {"image.filter", "box"}}}));
+  };
+  const RenderResult all = with("{adaptive: {start: 256, max: 256}}");
+  EXPECT_EQ(all.stats.rays.eye, 194u * 122 * 256);
+  std::uint64_t rays = all.stats.rays.eye / 2;
+  for (const int error : {1, 2, 4}) {
+    const RenderResult some = with(fmt::format("{{adaptive: {{start: 4, max: 256, error: {}}}}}", error));
+    EXPECT_LT(some.stats.rays.eye, rays) << error;
+    rays = some.stats.rays.eye;
+    int beyond = 0;
+    for (std::size_t i = 0; i < all.image.data.size(); i += 3) {
+      int worst = 0;
+      for (int c = 0; c < 3; ++c)
+        worst =
+            std::max(worst, std::abs(eight_bits(all.image.data[i + c]) - eight_bits(some.image.data[i + c])));
+      beyond += worst > error;
+    }
+    EXPECT_LE(beyond, 194 * 122 / 1000) << "of " << 194 * 122 << " at error " << error;
+  }
+}
+
+TEST(AdaptiveSamples, TakeNoMoreThanTheStartWhereNothingDiffers) {
+  const ScenePtr scene = parse_scene(
+      "lambent: 1\ncamera: {eye: [0, 0, 5], target: [0, 0, 0]}\nimage: {size: [20, 10], samples: {adaptive: "
+      "{}}}\nbackground: [0.5, 0.5, 0.5]\n");
+  const RenderResult result = render(scene);
+  EXPECT_EQ(result.stats.rays.eye, 20u * 10 * 4);
+  EXPECT_EQ(result.image.pixel(3, 3)[0], 0.5f);
+}
+
+TEST(AdaptiveSamples, AllOfThemWhereNoErrorIsAllowed) {
+  // Three columns see an edge in their pixel or a neighbour's: with error 0 these get `max`.
+  const ScenePtr scene = parse_scene(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0], projection: orthographic, height: 8}
+image: {size: [8, 8], samples: {adaptive: {start: 4, max: 100, error: 0}}}
+materials: [{name: white, ambient: 0, diffuse: 0, emission: 1}]
+objects: [{polygon: {vertices: [[-9, -9, 0], [0.3, -9, 0], [0.3, 9, 0], [-9, 9, 0]]}, material: white}]
+)");
+  const RenderResult result = render(scene);
+  EXPECT_EQ(result.stats.rays.eye, 8u * (3 * 100 + 5 * 4));
+  EXPECT_NEAR(result.image.pixel(4, 4)[0], 0.3, 0.011);  // the share of the pixel that is covered
+}
+
+// ---- many lights
+
+TEST(ManyLights, ThoseThatCannotReachChangeNothing) {
+  // Lamps all over a floor, each with a short reach or a narrow cone: what is left out for a tile must not
+  // matter.
+  std::string lights;
+  for (int i = 0; i < 200; ++i) {
+    const double x = -5 + 10 * ((i * 37) % 200) / 200.0, z = -5 + 10 * ((i * 91) % 200) / 200.0;
+    lights +=
+        i % 2 ? fmt::format("  - {{point: {{position: [{}, 0.5, {}], max_distance: 0.9, intensity: 0.3}}}}\n",
+                            x, z)
+              : fmt::format(
+                    "  - {{spot: {{position: [{}, 2, {}], target: [{}, 0, {}], angle: 20, "
+                    "intensity: 0.3}}}}\n",
+                    x, z, x + 0.3, z);
+  }
+  const std::string scene = R"(
+lambent: 1
+camera: {eye: [0, 4, 7], target: [0, 0, 0]}
+image: {size: [96, 54]}
+illumination: {model: phong, attenuation: none, ambient: 0}
+objects:
+  - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}}
+  - {sphere: {center: [0, 0.5, 0], radius: 0.5}}
+lights:
+)" + lights;
+  const Image tiles = picture(scene, {2, 8, "", {}}), whole = picture(scene, {1, 1000, "", {}});
+  EXPECT_EQ(tiles.data, whole.data);
+  // Against the sum over lamps of pictures with one lamp each, where nothing can be left out wrongly: light
+  // adds up.
+  std::vector<double> sum(whole.data.size());
+  std::size_t at = 0;
+  for (int i = 0; i < 200; ++i) {
+    const std::size_t end = lights.find('\n', at) + 1;
+    const std::string one = scene.substr(0, scene.size() - lights.size()) + lights.substr(at, end - at);
+    at = end;
+    const Image image = picture(one);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += image.data[k];
+  }
+  double brightest = 0;
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    EXPECT_NEAR(whole.data[k], sum[k], 1e-6 * (1 + sum[k]));
+    brightest = std::max(brightest, sum[k]);
+  }
+  EXPECT_GT(brightest, 0.3);
+}
+
 TEST(Cancelling, StopsAndSaysSo) {
   int calls = 0;
   const RenderResult result =

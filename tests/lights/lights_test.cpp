@@ -50,6 +50,40 @@ TEST(SpotLight, FadesBetweenTheInnerAndTheOuterCone) {
   EXPECT_EQ(spot_at(30.1, 60, 0, 0), 0);
 }
 
+TEST(EveryLight, IsBlackWhereItSaysThatItDoesNotReach) {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> u(-3, 3), size(0, 1), share(0, 1);
+  int out_of_reach = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3<double> position{u(random), u(random), u(random)}, target{u(random), u(random), u(random)};
+    const AnyLight lights[] = {
+        PointLight{position, {{1, 1, 1}}, 1, 3 * size(random)},
+        SpotLight{
+            position, target, {{1, 1, 1}}, 1, 5 + 170 * share(random), 0.1, 0, i % 2 ? 3 * size(random) : 0},
+        DirectionalLight{{0, -1, 0}, {{1, 1, 1}}, 1}};
+    Reach box{{u(random), u(random), u(random)}, {}};
+    box.upper = box.lower + Vec3<double>{size(random), size(random), size(random)};
+    for (const AnyLight& any : lights)
+      with_light(any, [&](const auto& light) {
+        if (reaches(light, box)) return;
+        ++out_of_reach;
+        for (int k = 0; k < 8; ++k) {
+          const Vec3<double> way = box.upper - box.lower;
+          const Vec3<double> p =
+              box.lower + Vec3<double>{share(random) * way.x, share(random) * way.y, share(random) * way.z};
+          EXPECT_TRUE(is_black(sample(light, p, 0.5, 0.5).I));
+        }
+      });
+  }
+  EXPECT_GT(out_of_reach, 10000);
+}
+
+TEST(PointLightTest, ShinesUpToItsMaxDistance) {
+  const PointLight light{{0, 0, 0}, {{1, 1, 1}}, 2, 3};
+  EXPECT_EQ(sample(light, Vec3<double>{2.999, 0, 0}, 0.5, 0.5).I[0], 2);
+  EXPECT_EQ(sample(light, Vec3<double>{3.001, 0, 0}, 0.5, 0.5).I[0], 0);
+}
+
 TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
   using P = Pack<double, native_float_lanes>;
   const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2},

@@ -252,8 +252,12 @@ TEST(Autoscene, WritesShortNumbers) {
 Model own_model() {
   Model model = box_model({-1, -1, -1}, {1, 1, 1});
   model.camera = Camera{.eye = {1, 2, 3}, .target = {0.1, 0.2, 0.3}, .up = {0, 0, 1}, .fov = 45.079261488};
-  model.image =
-      ImageSettings{.width = 320, .height = 200, .pattern = Pattern::corners, .encoding = Encoding::none};
+  model.image = [] {
+    ImageSettings image;
+    image.width = 320, image.height = 200;
+    image.pattern = Pattern::corners, image.encoding = Encoding::none;
+    return image;
+  }();
   model.background = Rgb{0.078, 0.361, 0.753};
   model.lights.push_back({"light 1", {}, PointLight{.position = {4, 3, 2}, .intensity = 0.1234567890123}});
   model.lights.push_back(

@@ -192,6 +192,10 @@ TEST(ReaderMessages, Values) {
   const auto image = [](const std::string& text) { return only(head + "image: {" + text + "}\n"); };
   EXPECT_EQ(image("samples: 1.5"), "'samples' must be a whole number, not '1.5' | ");
   EXPECT_EQ(image("samples: 0"), "'samples' is 0, but must be 1 to 65536 | ");
+  EXPECT_EQ(image("samples: {}"),
+            "the samples are neither a number nor 'adaptive' | for example samples: {adaptive: {error: 1}}");
+  EXPECT_EQ(image("samples: {adaptive: {start: 16, max: 8}}"),
+            "at most 8 samples, but 16 to start with | 'max' is at least 'start'");
   EXPECT_EQ(image("samples: 0x10"),
             "'samples' must be a number, not '0x10' | numbers are written in decimals: 16, 0.5, -1e-3");
   EXPECT_EQ(image("samples: 1_000"),

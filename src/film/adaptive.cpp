@@ -1,0 +1,53 @@
+#include "film/adaptive.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lambent {
+
+AdaptiveFilm::AdaptiveFilm(const Film& film, const ImageSettings& settings)
+    : width_(film.width),
+      height_(film.height),
+      settings_(settings.adaptive.value_or(AdaptiveSamples{})),
+      encoded_(settings.encoding == Encoding::srgb),
+      pixels_(std::size_t(film.width) * film.height) {
+  for (Pixel& pixel : pixels_) {
+    std::fill_n(pixel.least, color_channels, std::numeric_limits<float>::infinity());
+    std::fill_n(pixel.greatest, color_channels, -std::numeric_limits<float>::infinity());
+  }
+}
+
+/// In steps of 8 bits. The square root stands for sRGB's curve: as steep or steeper where it is dark, and the
+/// same on every machine.
+double AdaptiveFilm::seen(float value) const {
+  const double held = std::clamp(double(value), 0.0, 1.0);
+  return 255 * (encoded_ ? std::sqrt(held) : held);
+}
+
+double AdaptiveFilm::height_of_edge(int x, int y) const {
+  double height = 0;
+  for (int c = 0; c < color_channels; ++c) {
+    float least = std::numeric_limits<float>::infinity(), greatest = -least;
+    for (int j = std::max(0, y - 1); j <= std::min(height_ - 1, y + 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(width_ - 1, x + 1); ++i) {
+        const Pixel& pixel = pixels_[std::size_t(j) * width_ + i];
+        least = std::min(least, pixel.least[c]);
+        greatest = std::max(greatest, pixel.greatest[c]);
+      }
+    height = std::max(height, seen(greatest) - seen(least));
+  }
+  return height;
+}
+
+bool AdaptiveFilm::needs_more(int x, int y) const {
+  const double n = pixels_[std::size_t(y) * width_ + x].samples;
+  return height_of_edge(x, y) > settings_.error * std::sqrt(n * std::sqrt(n));
+}
+
+void AdaptiveFilm::develop(Film& film) const {
+  for (std::size_t p = 0; p < pixels_.size(); ++p)
+    for (int c = 0; c < color_channels; ++c)
+      film.colors[p * color_channels + c] = float(pixels_[p].sum[c] / std::max(1, pixels_[p].samples));
+}
+
+}  // namespace lambent
