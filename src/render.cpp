@@ -35,6 +35,44 @@ std::uint64_t peak_memory_bytes() {
   return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
+template <class T> std::uint64_t bytes_of(const std::vector<T>& list) { return list.size() * sizeof(T); }
+template <class T> std::uint64_t bytes_of(const std::vector<std::unique_ptr<std::vector<T>>>& lists) {
+  std::uint64_t sum = 0;
+  for (const auto& list : lists) sum += bytes_of(*list);
+  return sum;
+}
+
+void describe(const Scene& scene, const PreparedFrame& prepared, Stats& stats) {
+  const World& world = prepared.world;
+  for (const Geometry& geometry : world.geometries) stats.scene.primitives += geometry.count;
+  stats.scene.instances = world.instances.size();
+  for (const Bvh& bvh : world.bvhs) stats.scene.trees += !bvh.empty;
+  stats.scene.nodes = world.nodes.size();
+  stats.scene.lights = scene.lights.size();
+  stats.tree_quality = prepared.tree_quality == TreeQuality::quick ? "quick" : "thorough";
+
+  auto& bytes = stats.bytes;
+  for (const Shape& shape : scene.shapes) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape.primitives)) {
+      bytes.vertices += bytes_of(mesh->vertices);
+      bytes.normals += bytes_of(mesh->normals);
+      bytes.uvs += bytes_of(mesh->uvs);
+      bytes.indices += bytes_of(mesh->triangles);
+    } else {
+      std::visit(
+          [&](const auto& list) {
+            if constexpr (requires { bytes_of(list); }) bytes.shapes += bytes_of(list);
+          },
+          shape.primitives);
+    }
+  }
+  bytes.placed = bytes_of(world.placed_points) + bytes_of(world.placed_spheres) +
+                 bytes_of(world.placed_cones) + bytes_of(world.placed_discs) + bytes_of(world.placed_planes) +
+                 bytes_of(world.placed_numbers);
+  bytes.nodes = bytes_of(world.nodes);
+  bytes.refs = bytes_of(world.refs) + bytes_of(world.leaf_spheres);
+}
+
 }  // namespace
 
 const char* version() { return LAMBENT_VERSION; }
@@ -50,26 +88,31 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const int threads =
       options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
   Clock clock;
+  RenderResult result;
+  Stats& stats = result.stats;
   const auto prepared = prepare(*scene);
-  const double build = clock.lap();
+  describe(*scene, *prepared, stats);
+  stats.seconds.build = clock.lap();
   Film film(scene->image);
+  stats.bytes.film = bytes_of(film.colors);
+  const double pixels = double(film.width) * film.height;
   const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
   const TileRun run = scene->image.adaptive && scene->image.pattern != Pattern::corners
                           ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
                           : render_tiles(prepared->frame, kernel, film, tile_options);
+  stats.seconds.render = clock.lap();
 
-  RenderResult result;
   result.image = develop(std::move(film), scene->image);
   result.metadata = settings_metadata(*scene);
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;
-  result.stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow};
-  result.stats.seconds.build = build;
-  result.stats.seconds.render = clock.lap();
-  result.stats.peak_memory_bytes = peak_memory_bytes();
-  result.stats.threads = threads;
-  result.stats.isa = kernel.isa;
+  stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow};
+  stats.seconds.develop = clock.lap();
+  stats.samples_per_pixel = double(rays.eye) / pixels;
+  stats.peak_memory_bytes = peak_memory_bytes();
+  stats.threads = threads;
+  stats.isa = kernel.isa;
   return result;
 }
 

@@ -138,7 +138,8 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
   add_bits(command, render.bits);
   command
       ->add_option("--stats", render.stats,
-                   "Write ray counts, times and memory as JSON;\n- is standard output")
+                   "Write as JSON what went where: rays by kind,\nseconds by stage, bytes by what they "
+                   "hold;\n- is standard output")
       ->type_name("FILE");
   command->add_flag("-q,--quiet", render.quiet, "Say nothing but errors");
   return command;

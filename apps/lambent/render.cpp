@@ -41,8 +41,20 @@ std::string stats_as_json(const Stats& stats) {
   json["seconds"] = {{"parse", stats.seconds.parse},
                      {"build", stats.seconds.build},
                      {"render", stats.seconds.render},
+                     {"develop", stats.seconds.develop},
                      {"write", stats.seconds.write}};
+  json["scene"] = {{"primitives", stats.scene.primitives},
+                   {"instances", stats.scene.instances},
+                   {"trees", stats.scene.trees},
+                   {"nodes", stats.scene.nodes},
+                   {"lights", stats.scene.lights}};
+  json["bytes"] = {
+      {"vertices", stats.bytes.vertices}, {"normals", stats.bytes.normals}, {"uvs", stats.bytes.uvs},
+      {"indices", stats.bytes.indices},   {"shapes", stats.bytes.shapes},   {"placed", stats.bytes.placed},
+      {"nodes", stats.bytes.nodes},       {"refs", stats.bytes.refs},       {"film", stats.bytes.film}};
   json["peak_memory_bytes"] = stats.peak_memory_bytes;
+  json["samples_per_pixel"] = stats.samples_per_pixel;
+  json["tree_quality"] = stats.tree_quality;
   json["threads"] = stats.threads;
   json["isa"] = stats.isa;
   json["version"] = version();

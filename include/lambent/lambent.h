@@ -59,7 +59,7 @@ struct SceneSummary {
   };
   std::string name;
   int width = 0, height = 0;
-  int samples = 0;  ///< Of each pixel; with adaptive samples the most that one may get.
+  int samples = 0;                        ///< Of each pixel; with adaptive samples the most that one may get.
   std::string camera, model, integrator;  ///< For people.
   double lower[3] = {0, 0, 0},
          upper[3] = {0, 0,
@@ -79,10 +79,34 @@ struct Stats {
   struct {
     std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0;
   } rays;
+  /// By stage. render() fills build, render and develop; who loads the scene and writes the picture knows the
+  /// others.
   struct {
-    double parse = 0, build = 0, render = 0, write = 0;
+    double parse = 0;    ///< Read the scene and its models.
+    double build = 0;    ///< Take it into the world; build the trees.
+    double render = 0;   ///< From the first ray to the last.
+    double develop = 0;  ///< Make the picture of the film.
+    double write = 0;    ///< Encode the picture and write it.
   } seconds;
-  std::uint64_t peak_memory_bytes = 0;
+  /// What the frame consists of.
+  struct {
+    std::uint64_t primitives = 0;  ///< In the world's trees, or beside them (infinite planes).
+    std::uint64_t instances = 0;   ///< Objects that stand in the world by reference to a shape with a tree.
+    std::uint64_t trees = 0, nodes = 0;
+    std::uint64_t lights = 0;
+  } scene;
+  /// Memory by what it holds, while rays are traced.
+  struct {
+    std::uint64_t vertices = 0, normals = 0, uvs = 0, indices = 0;  ///< Of meshes, as they are stored.
+    std::uint64_t shapes = 0;  ///< Spheres, cones, discs and planes, as they are stored.
+    std::uint64_t placed = 0;  ///< Copies of all these, taken into the world.
+    std::uint64_t nodes = 0;   ///< The trees' nodes,
+    std::uint64_t refs = 0;    ///< and what their leaves hold.
+    std::uint64_t film = 0;
+  } bytes;
+  std::uint64_t peak_memory_bytes = 0;  ///< Of the whole process so far.
+  double samples_per_pixel = 0;         ///< On average.
+  std::string tree_quality;             ///< "quick" or "thorough": whichever brings the picture sooner.
   int threads = 0;
   std::string isa;
 };

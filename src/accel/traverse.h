@@ -381,12 +381,17 @@ void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far,
           meet(world.geometries[world.planes[p].geometry], world.planes[p].primitive, rays[i]);
       if (any(m.hit)) see(i, -1, world.planes[p], m);
     }
+  const auto four_rays = [&] {
+    if constexpr (lanes_of<F> > 1) return 0;
+    else return QueryRay<Pack<float, 4>>(rays[0]);
+  }();
   const auto ask = [&](const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray, int i) {
     const auto seen = [&](std::int32_t in, const PrimitiveRef& ref, const Meeting<F>& m) {
       see(i, in, ref, m);
     };
-    if constexpr (lanes_of<F> == 1) ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), seen);
-    else ask_leaf(world, leaf, instance, ray, seen);
+    if constexpr (lanes_of<F> > 1) ask_leaf(world, leaf, instance, ray, seen);
+    else if (instance < 0) ask_leaf(world, leaf, instance, ray, four_rays, seen);
+    else ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), seen);
   };
   traverse_packets(world, world.bvhs[0], rays, t_far, count, [&](const BvhChild& leaf, int i) {
     if (leaf.kind != LeafKind::mixed) return ask(leaf, -1, rays[i], i);

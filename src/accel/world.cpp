@@ -38,6 +38,16 @@ PlacedCone placed(const Cone& c) {
   return {c.from, way / height, height, c.radius_from, (c.radius_to - c.radius_from) / height};
 }
 
+/// The same for a triangle, whose corners are floats already.
+BoxedPrimitive boxed_triangle(PrimitiveRef ref, const Geometry& g) {
+  const auto& [i, j, k] = g.triangles[ref.primitive];
+  const Vec3<float>&a = g.vertices[i], &b = g.vertices[j], &c = g.vertices[k];
+  return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+          ref.geometry,
+          {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})},
+          ref.primitive};
+}
+
 void add_circle(Bounds& b, const Vec3<double>& center, const Vec3<double>& axis, double radius) {
   // Of a circle across a unit axis, the extent along x is radius sqrt(1 - axis.x^2).
   const auto reach = [&](double a) { return radius * std::sqrt(std::fmax(0, 1 - a * a)); };
@@ -46,12 +56,10 @@ void add_circle(Bounds& b, const Vec3<double>& center, const Vec3<double>& axis,
   b.add(center + r);
 }
 
+/// Of a shape's primitive that is neither a triangle nor a plane.
 Bounds bounds_of(const Geometry& g, std::uint32_t i) {
   Bounds b;
   switch (g.kind) {
-    case PrimitiveKind::triangle:
-      for (std::uint32_t v : g.triangles[i]) b.add(cast<double>(g.vertices[v]));
-      break;
     case PrimitiveKind::sphere: {
       const Sphere& s = g.spheres[i];
       const Vec3<double> r{s.radius, s.radius, s.radius};
@@ -68,6 +76,7 @@ Bounds bounds_of(const Geometry& g, std::uint32_t i) {
     case PrimitiveKind::disc:
       add_circle(b, g.discs[i].center, g.discs[i].normal, g.discs[i].radius);
       break;
+    case PrimitiveKind::triangle:
     case PrimitiveKind::plane:
     case PrimitiveKind::instance:
       break;
@@ -290,6 +299,7 @@ class Builder {
     for (std::uint32_t i = 0; i < g.count; ++i) {
       const PrimitiveRef ref{geometry, std::int32_t(i)};
       if (g.kind == PrimitiveKind::plane) world_.planes.push_back(ref);
+      else if (g.kind == PrimitiveKind::triangle) boxes.push_back(boxed_triangle(ref, g));
       else boxes.push_back(boxed(ref, bounds_of(g, i)));
     }
   }

@@ -38,6 +38,12 @@ struct Used {
   bool shown = false;                 ///< A face has it.
 };
 
+/// Triangles one after the other that have the same material.
+struct Run {
+  std::uint32_t slot;  ///< Index into the materials used.
+  std::size_t triangles;
+};
+
 std::string plural(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
@@ -255,7 +261,8 @@ class ObjReader {
       return;
     }
     triangles_.push_back({indices_[a], indices_[b], indices_[c]});
-    slot_of_triangle_.push_back(slot_);
+    if (runs_.empty() || runs_.back().slot != slot_) runs_.push_back({slot_, 0});
+    ++runs_.back().triangles;
   }
 
   // ---- materials ----
@@ -358,8 +365,11 @@ class ObjReader {
            0});
     name_the_nameless(materials);
     if (materials.size() == 1) return {};
-    for (std::uint32_t& slot : slot_of_triangle_) slot = index_of_slot[slot];
-    return std::move(slot_of_triangle_);
+    std::vector<std::uint32_t> material_of_triangle;
+    material_of_triangle.reserve(triangles_.size());
+    for (const Run& run : runs_)
+      material_of_triangle.insert(material_of_triangle.end(), run.triangles, index_of_slot[run.slot]);
+    return material_of_triangle;
   }
 
   /// Where a material that is not defined was first named; warns of it.
@@ -389,11 +399,15 @@ class ObjReader {
     const bool smooth = normals_.empty() && smooth_points_.size() > 0;
     Mesh mesh;
     mesh.triangles = std::move(triangles_);
-    mesh.vertices.reserve(vertices_.size());
-    if (has_uvs_) mesh.uvs.reserve(vertices_.size());
-    if (has_normals_ || smooth) mesh.normals.reserve(vertices_.size());
-    for (const auto& [position, uv, normal, group] : vertices_.keys()) {
+    // One after the other, and what is not wanted any more goes first: this is where most memory is in use.
+    const std::vector<VertexTable::Key> keys = vertices_.take_keys();
+    mesh.vertices.reserve(keys.size());
+    for (const auto& [position, uv, normal, group] : keys)
       mesh.vertices.push_back(cast<float>(positions_[position]));
+    positions_ = {};
+    if (has_uvs_) mesh.uvs.reserve(keys.size());
+    if (has_normals_ || smooth) mesh.normals.reserve(keys.size());
+    for (const auto& [position, uv, normal, group] : keys) {
       if (has_uvs_) mesh.uvs.push_back(uv == none ? Vec2<float>{} : uvs_[uv]);
       if (has_normals_) mesh.normals.push_back(normal == none ? Vec3<float>{} : normals_[normal]);
       else if (smooth) mesh.normals.push_back(group == 0 ? Vec3<float>{} : smooth_normal(position, group));
@@ -471,7 +485,7 @@ class ObjReader {
   VertexTable smooth_points_;  ///< Keys: position, none, none, smoothing group.
   std::vector<Vec3<double>> smooth_normals_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
-  std::vector<std::uint32_t> slot_of_triangle_;  ///< Indices into used_.
+  std::vector<Run> runs_;
   bool has_uvs_ = false, has_normals_ = false;
   std::uint32_t group_ = 0;  ///< The smoothing group; 0 is off.
 

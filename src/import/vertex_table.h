@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace lambent {
@@ -16,7 +17,7 @@ class VertexTable {
   std::uint32_t index_of(const Key& key) {
     if (2 * (keys_.size() + 1) > slots_.size()) grow();
     std::size_t slot = hash(key) & (slots_.size() - 1);
-    while (slots_[slot] != empty && keys_[slots_[slot]] != key) slot = (slot + 1) & (slots_.size() - 1);
+    while (slots_[slot] != empty && !same(keys_[slots_[slot]], key)) slot = (slot + 1) & (slots_.size() - 1);
     if (slots_[slot] == empty) {
       slots_[slot] = std::uint32_t(keys_.size());
       keys_.push_back(key);
@@ -24,11 +25,20 @@ class VertexTable {
     return slots_[slot];
   }
   const std::vector<Key>& keys() const { return keys_; }
+  /// The keys by their numbers; the table is empty afterwards.
+  std::vector<Key> take_keys() {
+    slots_ = {};
+    return std::exchange(keys_, {});
+  }
   std::uint32_t size() const { return std::uint32_t(keys_.size()); }
 
  private:
   static constexpr std::uint32_t empty = ~0u;
 
+  /// A call of memcmp, which == is, takes longer than all else here.
+  static bool same(const Key& a, const Key& b) {
+    return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2]) | (a[3] ^ b[3])) == 0;
+  }
   static std::size_t hash(const Key& key) {
     std::uint64_t h = 0x9e3779b97f4a7c15u;
     for (const std::uint32_t part : key) {

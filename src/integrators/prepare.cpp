@@ -42,15 +42,24 @@ MaterialRecord material_record(const Material& material, ModelId scene_model) {
   return record;
 }
 
+std::uint64_t primitive_count(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Shape& shape : scene.shapes) count += primitive_count(shape);
+  return count;
+}
+
 }  // namespace
+
+TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
+  // Measured in seconds of one thread: a thorough tree costs 0.6 us more for each primitive. For each sample it
+  // saves 0.04 us (a million triangles, two lights) to 0.25 us (gears of glass), 10 to 30 % of the whole. So it pays
+  // from somewhere between 2.5 and 15 samples for each primitive on.
+  return samples < 2 * primitives ? TreeQuality::quick : TreeQuality::thorough;
+}
 
 std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   auto prepared = std::make_unique<PreparedFrame>();
   Frame& frame = prepared->frame;
-
-  prepared->world = build_world(scene);
-  frame.world = prepared->world.view();
-  frame.any_transmits = prepared->world.any_transmits;
 
   frame.camera = camera_record(scene.camera);
   const bool corners = scene.image.pattern == Pattern::corners;
@@ -63,6 +72,12 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
           : sample_pattern(scene.image.samples, scene.image.filter);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
+
+  prepared->tree_quality =
+      suitable_quality(primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples);
+  prepared->world = build_world(scene, prepared->tree_quality);
+  frame.world = prepared->world.view();
+  frame.any_transmits = prepared->world.any_transmits;
 
   for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();

@@ -10,6 +10,7 @@ namespace lambent {
 struct PreparedFrame {
   Frame frame;
   World world;
+  TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
   std::vector<AnyLight> lights;
   std::vector<MaterialRecord> materials;
@@ -17,6 +18,9 @@ struct PreparedFrame {
 
 /// Lays a scene out for the kernels; builds its trees.
 std::unique_ptr<PreparedFrame> prepare(const Scene& scene);
+
+/// The trees that bring a picture of so many samples to its end soonest.
+TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples);
 
 /// The camera's axes, orthonormal, right-handed: right x up points back at the viewer.
 CameraRecord camera_record(const Camera& camera);

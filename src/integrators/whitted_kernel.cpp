@@ -65,7 +65,7 @@ struct Work {
     for (std::uint64_t first = 0; first < samples; first += batch_size) {
       const auto count = std::uint32_t(min<std::uint64_t>(batch_size, samples - first));
       throw_eye_rays(first, count);
-      for (int depth = 1; scratch.rays.count > 0; ++depth) {
+      for (depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
         sort_into_groups();
         choose_lights();
@@ -81,6 +81,8 @@ struct Work {
       add_to_pixels(first, count);
     }
   }
+
+  int depth = 1;  ///< Of the rays at hand; the ray from the eye is 1.
 
   int samples_per_pixel() const { return task.end_sample - task.first_sample; }
 
@@ -416,7 +418,22 @@ struct Work {
 
   [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
                                       MaskOf<Query>* open) const {
-    find_open(frame.world, rays, t_far, count, all_opaque(), open);
+    if (depth == 1) return find_open(frame.world, rays, t_far, count, all_opaque(), open);
+    // What scattered rays have found lies anywhere: packet by packet where the shadow rays still go together, and
+    // one by one where they do not.
+    const float extent = frame.world.bvhs[0].extent;
+    for (int i = 0; i < count; ++i) {
+      if (PacketBeam::suits(rays + i, t_far + i, 1, extent)) {
+        find_open(frame.world, rays + i, t_far + i, 1, all_opaque(), open + i);
+        continue;
+      }
+      for (std::uint32_t asked = lane_bits(open[i]); asked; asked &= asked - 1) {
+        const int k = __builtin_ctz(asked);
+        const QueryRay<float> ray({lane(rays[i].o.x, k), lane(rays[i].o.y, k), lane(rays[i].o.z, k)},
+                                  {lane(rays[i].d.x, k), lane(rays[i].d.y, k), lane(rays[i].d.z, k)});
+        if (find_occluded(frame.world, ray, true, lane(t_far[i], k), all_opaque())) set_lane(open[i], k, false);
+      }
+    }
   }
 
   /// How much of a light arrives at the lanes that it reaches: all, or what transmitting surfaces leave of

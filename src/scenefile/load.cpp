@@ -1,5 +1,7 @@
 // Loading: a scene file as it is, a model file by way of the scene that is made for it.
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -42,6 +44,10 @@ ScenePtr read(std::string_view yaml, const std::string& name, const std::string&
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   scene->name = fs::path(path).filename().string();
+  // What reading took lies in holes between what stays; glibc gives such pages back to the system only when asked.
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
   return scene;
 }
 

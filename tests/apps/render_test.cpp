@@ -91,10 +91,12 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto stats = nlohmann::json::parse(read_text(folder.file("s.json")));
   EXPECT_EQ(keys_of(stats),
-            (std::vector<std::string>{"isa", "peak_memory_bytes", "rays", "seconds", "threads", "version"}));
+            (std::vector<std::string>{"bytes", "isa", "peak_memory_bytes", "rays", "samples_per_pixel",
+                                      "scene", "seconds", "threads", "tree_quality", "version"}));
   EXPECT_EQ(keys_of(stats["rays"]),
             (std::vector<std::string>{"eye", "eye_hits", "reflection", "refraction", "shadow"}));
-  EXPECT_EQ(keys_of(stats["seconds"]), (std::vector<std::string>{"build", "parse", "render", "write"}));
+  EXPECT_EQ(keys_of(stats["seconds"]),
+            (std::vector<std::string>{"build", "develop", "parse", "render", "write"}));
   EXPECT_EQ(stats["rays"]["eye"], 8 * 6 * 4);
   EXPECT_EQ(stats["rays"]["refraction"], 0);
   EXPECT_GT(stats["rays"]["eye_hits"], 0);
@@ -104,6 +106,14 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
   EXPECT_GT(stats["seconds"]["write"], 0);
   EXPECT_GT(stats["peak_memory_bytes"], 100'000);
   EXPECT_EQ(stats["threads"], 2);
+  EXPECT_EQ(stats["samples_per_pixel"], 4);
+  EXPECT_EQ(keys_of(stats["scene"]),
+            (std::vector<std::string>{"instances", "lights", "nodes", "primitives", "trees"}));
+  EXPECT_EQ(stats["scene"]["primitives"], 2);
+  EXPECT_EQ(keys_of(stats["bytes"]),
+            (std::vector<std::string>{"film", "indices", "nodes", "normals", "placed", "refs", "shapes",
+                                      "uvs", "vertices"}));
+  EXPECT_EQ(stats["bytes"]["film"], 8 * 6 * 3 * sizeof(float));
   EXPECT_EQ(stats["version"], version());
 }
 

@@ -54,6 +54,38 @@ using Strings = std::vector<std::string>;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
+// ---- large files ----
+
+/// A file that is read in several pieces: `lines` of a comment, 80 characters each.
+std::string filler(int lines) {
+  std::string text;
+  for (int i = 0; i < lines; ++i) text += "#" + std::string(78, '-') + "\n";
+  return text;
+}
+
+TEST(Obj, PlacesAreRightFarIntoALargeFile) {
+  EXPECT_EQ(errors_of(square + filler(10000) + "f 1 2 3\n" + filler(10000) + "f 1 2 9\n"),
+            (Strings{"model.obj:20006:7: error: face refers to vertex 9, but only 4 are defined so far\n"
+                     "    f 1 2 9\n          ^"}));
+  EXPECT_EQ(errors_of(square + filler(10000)).at(0).substr(0, 17), "model.obj:10004:8");
+}
+
+TEST(Obj, WarningsRememberWhatLiesFarBack) {
+  const Model model = obj(square + "usemtl red\nl 1 2\nf 1 1 2\n" + filler(10000) + "usemtl blue\nf 1 2 3\n" +
+                          filler(10000) + "usemtl red\nf 1 3 4\n");
+  const Strings warnings = warnings_of(model);
+  ASSERT_EQ(warnings.size(), 4u);
+  EXPECT_EQ(
+      warnings[0],
+      "model.obj:5:8: warning: material 'red' is not defined; it is grey\n    usemtl red\n           ^\n"
+      "    hint: the file names no material library (mtllib)");
+  EXPECT_EQ(warnings[1].substr(0, 14), "model.obj:6:1:");
+  EXPECT_EQ(warnings[2].substr(0, 14), "model.obj:7:1:");
+  EXPECT_EQ(warnings[3].substr(0, 18), "model.obj:10008:8:");
+  EXPECT_EQ(model.materials.at(0).place.line, 5);
+  EXPECT_EQ(model.shapes.at(0).material_of_primitive, (std::vector<std::uint32_t>{1, 0}));
+}
+
 // ---- geometry ----
 
 TEST(Obj, ATriangle) {

@@ -150,6 +150,61 @@ TEST(TextFile, ReadsWhatIsThereAndNamesWhatIsNot) {
   EXPECT_THROW(read_file(folder.path()), InputError);
 }
 
+struct Pieces {
+  std::string text;
+  Strings lines;  ///< With their numbers.
+  int count = 0;
+};
+Pieces pieces_of(const std::string& path, std::size_t size) {
+  TextPieces pieces(path, size);
+  Pieces result;
+  for (TextFile piece; pieces.next(piece); ++result.count) {
+    LineReader lines(piece.text, true);
+    while (lines.next())
+      result.lines.push_back(std::to_string(piece.first_line + lines.number - 1) + ":" +
+                             std::string(lines.line));
+    result.text += piece.text;
+  }
+  return result;
+}
+
+TEST(TextFile, PiecesAreTheWholeFile) {
+  const test::TemporaryDirectory folder;
+  const std::string path = folder.file("x");
+  EXPECT_TRUE(rc::check("pieces of any size", [&](const std::vector<std::uint8_t>& numbers) {
+    const std::string parts[] = {"a",      "\n",   "\\",       "\\\n",   "\r\n",
+                                 " \\ \n", "\xe4", "\xc3\xa4", "# \\\n", "\r"};
+    std::string bytes;
+    for (const std::uint8_t n : numbers) bytes += parts[n % std::size(parts)];
+    if (numbers.size() % 5 == 0) bytes = "\xef\xbb\xbf" + bytes;
+    test::write_text(path, bytes);
+    const TextFile whole = read_text_file(path);
+    for (const std::size_t size : {1u, 2u, 7u, 1000u}) {
+      const Pieces pieces = pieces_of(path, size);
+      RC_ASSERT(pieces.text == whole.text);
+      RC_ASSERT(pieces.lines == lines_of(whole.text, true));
+    }
+  }));
+  test::write_text(path, "one\ntwo\nthree\n");
+  EXPECT_EQ(pieces_of(path, 5).count, 3);
+  test::write_text(path, "");
+  EXPECT_EQ(pieces_of(path, 5).count, 1) << "an empty file is a piece, too";
+  test::write_text(path, std::string("\xff\xfev\0\n\0\xe4\0\n\0", 10));
+  EXPECT_EQ(pieces_of(path, 1).text, "v\n\xc3\xa4\n");
+}
+
+TEST(TextFile, PiecesOfABinaryFileAndOfNone) {
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("x"), std::string("solid\nab\nab\0c", 13));
+  try {
+    pieces_of(folder.file("x"), 1);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(to_string(error.diagnostics().at(0).place), folder.file("x") + ":3:3");
+  }
+  EXPECT_THROW(TextPieces(folder.file("missing")), InputError);
+}
+
 TEST(TextFile, PlacesCountCharacters) {
   const TextFile file = text_file("f.obj", "one\n\xc3\xa4\tv 1 x\n");
   std::string_view rest = std::string_view(file.text).substr(4);
