@@ -66,7 +66,11 @@ class Growing {
         nodes_(primitives.size()),  // enough: every node has two children at least
         refs_(primitives.size()),
         first_node_(std::uint32_t(world.nodes.size())),
-        first_ref_(std::uint32_t(world.refs.size())) {}
+        first_ref_(std::uint32_t(world.refs.size())),
+        first_box_(world.geometries.size()) {
+    for (std::size_t i = primitives.size(); i-- > 0;)
+      if (primitives[i].geometry != instance_geometry) first_box_[primitives[i].geometry] = std::uint32_t(i);
+  }
 
   static void* create_node(RTCThreadLocalAllocator, unsigned count, void* self) {
     return static_cast<Growing*>(self)->add_node(count);
@@ -127,33 +131,41 @@ class Growing {
 
   void* add_leaf(const RTCBuildPrimitive* given, std::uint32_t count) {
     // The thorough builder sorts the primitives where they are, so that a leaf is a stretch of them; the
-    // quick one hands out copies.
+    // quick one leaves them where they are and hands out copies.
     const auto* p = reinterpret_cast<const BoxedPrimitive*>(given);
     const bool in_place = !std::less<>()(p, primitives_.begin()) && std::less<>()(p, primitives_.end());
     const std::uint32_t at = in_place ? std::uint32_t(p - primitives_.begin()) : next_copy_.fetch_add(count);
     PrimitiveRef* refs = refs_.data() + at;
     for (std::uint32_t i = 0; i < count; ++i) refs[i] = {p[i].geometry, p[i].primitive};
-    if (in_place) give_back(at, count);
+    for (std::uint32_t i = 0, many = 0; i < count; i += many) {
+      const auto block_of = [&](std::uint32_t k) {
+        if (in_place) return (at + k) / step;
+        const auto [geometry, primitive] = refs[k];
+        return geometry == instance_geometry ? no_block
+                                             : (first_box_[geometry] + std::uint32_t(primitive)) / step;
+      };
+      const std::uint32_t block = block_of(i);
+      for (many = 1; i + many < count && block_of(i + many) == block;) ++many;
+      if (block != no_block) give_back(block, many);
+    }
     return pointer_of({first_ref_ + at, count, kind_of(refs, count, world_)});
   }
 
-  /// Once all of a step's primitives are in leaves, their boxes have done their work.
-  void give_back(std::uint32_t at, std::uint32_t count) {
-    constexpr std::uint32_t step = Pages<BoxedPrimitive>::step;
-    for (const std::uint32_t end = at + count; at < end;) {
-      const std::uint32_t block = at / step, here = std::min(end, (block + 1) * step) - at;
-      if (done_[block].fetch_add(here) + here == step)
-        primitives_.give_back(std::size_t(block) * step, std::size_t(block + 1) * step);
-      at += here;
-    }
+  /// Once all primitives of a block are in leaves, their boxes have done their work.
+  void give_back(std::uint32_t block, std::uint32_t count) {
+    if (done_[block].fetch_add(count, std::memory_order_acq_rel) + count == step)
+      primitives_.give_back(std::size_t(block) * step, std::size_t(block + 1) * step);
   }
+
+  static constexpr std::uint32_t step = Pages<BoxedPrimitive>::step, no_block = ~0u;
 
   World& world_;
   Pages<BoxedPrimitive>& primitives_;
-  std::unique_ptr<std::atomic<std::uint32_t>[]> done_;  ///< Of each step, how many are in leaves.
+  std::unique_ptr<std::atomic<std::uint32_t>[]> done_;  ///< Of each block, how many are in leaves.
   Pages<BvhNode> nodes_;
   Pages<PrimitiveRef> refs_;
   std::uint32_t first_node_, first_ref_;  ///< Where this tree begins in the world's.
+  std::vector<std::uint32_t> first_box_;  ///< Of each geometry, before the builder sorts them.
   std::atomic<std::uint32_t> next_node_{0}, next_copy_{0};
 };
 

@@ -12,8 +12,8 @@ struct alignas(32) BoxedPrimitive {
   std::int32_t primitive;
 };
 
-/// Appends a tree over `primitives` to world.nodes and world.refs. Building is Embree's work (rtcBuildBVH, in
-/// parallel); the queries are ours.
+/// Appends a tree over `primitives` to world.nodes and world.refs; those of one geometry must stand together,
+/// in their order. Building is Embree's work (rtcBuildBVH, in parallel); the queries are ours.
 Bvh build_tree(Pages<BoxedPrimitive> primitives, TreeQuality quality, World& world);
 
 }  // namespace lambent

@@ -59,6 +59,7 @@ class ObjReader {
     while (pieces_.next(file_)) {
       LineReader lines(file_.text, true);
       while (lines.next()) statement(lines.line);
+      if (!triangles_.empty()) continue;
       if (!end_ || !trim(file_.text).empty()) end_ = warning_at(file_, end_of(file_.text), {});
       any_text_ |= !trim(file_.text).empty();
     }
@@ -468,7 +469,7 @@ class ObjReader {
 
   TextPieces pieces_;
   TextFile file_;                  ///< The piece at hand; views into it do not outlive it.
-  std::optional<Diagnostic> end_;  ///< Where the text ends, as a warning without words.
+  std::optional<Diagnostic> end_;  ///< Where the text ends, as long as there is no triangle; without words.
   bool any_text_ = false;
   std::vector<Diagnostic> errors_, warnings_;
 
