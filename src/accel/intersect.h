@@ -70,6 +70,12 @@ template <class F> struct QueryRay {
   }
 };
 
+/// The ray of lane k alone.
+template <class F> QueryRay<float> lane(const QueryRay<F>& rays, int k) {
+  return {{lane(rays.o.x, k), lane(rays.o.y, k), lane(rays.o.z, k)},
+          {lane(rays.d.x, k), lane(rays.d.y, k), lane(rays.d.z, k)}};
+}
+
 /// A distance and whether it is one.
 template <class F> struct Meeting {
   F t;

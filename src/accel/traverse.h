@@ -8,8 +8,8 @@
 // times the rounding of the tests of intersect.h, which see coordinates relative to the origin, (|o| +
 // extent) at the most, each off by a few units of 2^-24.
 
-#include "accel/gather.h"
 #include "accel/intersect.h"
+#include "math/gather.h"
 
 namespace lambent {
 
@@ -20,12 +20,9 @@ template <class I> struct HitIds {
 
 inline namespace LAMBENT_ISA {
 
-template <class F> struct IntOf { using type = std::int32_t; };
-template <int W> struct IntOf<Pack<float, W>> { using type = Pack<std::int32_t, W>; };
-
 /// The closest hit so far: t is the ray's far end before there is one; geometry is -1 then.
 template <class F> struct Closest {
-  using I = typename IntOf<F>::type;
+  using I = With<F, std::int32_t>;
   F t;
   HitIds<I> ids{I(-1), I(-1), I(-1)};
 };
@@ -37,11 +34,12 @@ inline constexpr int max_packets = 8;
 /// is (p - o) / d away, or p / d - o / d.
 template <class F> struct BoxRay {
   Vec3<F> inverse_d;
+  F margin;           ///< How far off the origin may be.
   Vec3<F> low, high;  ///< o / d, for lower and upper sides: seen from o moved outwards by the margin.
 
   BoxRay() = default;
   BoxRay(const QueryRay<F>& ray, float extent) {
-    const F margin = F(0x1p-20f) * (max_abs(ray.o) + F(extent));
+    margin = F(0x1p-20f) * (max_abs(ray.o) + F(extent));
     const F tiny = F(1e-18f) * max_abs(ray.d);
     inverse_d = {invert(ray.d.x, tiny), invert(ray.d.y, tiny), invert(ray.d.z, tiny)};
     low = {(ray.o.x + margin) * inverse_d.x, (ray.o.y + margin) * inverse_d.y,
@@ -112,8 +110,7 @@ struct PacketBeam {
   }
 
   /// False where the rays do not all go the same way; then this is no beam.
-  template <class F>
-  bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far, int count, float extent) {
+  template <class F> bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far, int count) {
     const F zero(0.f);
     for (int a = 0; a < 3; ++a) {
       const auto of = [a](const auto& v) { return a == 0 ? v.x : a == 1 ? v.y : v.z; };
@@ -122,8 +119,8 @@ struct PacketBeam {
       F low = large, high = -large, near = -large, far = large;
       for (int i = 0; i < count; ++i) {
         const F inverse = of(box_rays[i].inverse_d);
-        const F margin = F(0x1p-20f) * (max_abs(rays[i].o) + F(extent));
-        const F o = of(rays[i].o) - c, to_low = (o + margin) * inverse, to_high = (o - margin) * inverse;
+        const F o = of(rays[i].o) - c, margin = box_rays[i].margin;
+        const F to_low = (o + margin) * inverse, to_high = (o - margin) * inverse;
         const MaskOf<F> active = t_far[i] >= zero;
         low = min(low, select(active, inverse, low));
         high = max(high, select(active, inverse, high));
@@ -265,7 +262,7 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
       if (beam_far < 0) return true;
       PacketBeam beam;
       if (!PacketBeam::suits(rays + first, t_far + first, size, bvh.extent)) return false;
-      if (!beam.set(rays + first, box_rays + first, t_far + first, size, bvh.extent)) return false;
+      if (!beam.set(rays + first, box_rays + first, t_far + first, size)) return false;
       traverse(world, bvh, beam, beam_far, [&](const BvhChild& child, const BvhNode& node, int c) {
         bool asked = false;
         for (int i = first; i < first + size; ++i) {
@@ -291,17 +288,19 @@ template <class F> QueryRay<F> enter(const Instance& instance, const QueryRay<F>
   using D = With<F, double>;
   const auto object_from_world =
       gather_transform<D>([&](int) -> const Transform& { return instance.object_from_world; });
-  const auto to_double = [](const Vec3<F>& v) {
-    return Vec3<D>{number_cast<double>(v.x), number_cast<double>(v.y), number_cast<double>(v.z)};
-  };
-  const auto to_float = [](const Vec3<D>& v) {
-    return Vec3<F>{number_cast<float>(v.x), number_cast<float>(v.y), number_cast<float>(v.z)};
-  };
-  return {to_float(transform_point(object_from_world, to_double(ray.o))),
-          to_float(transform_vector(object_from_world, to_double(ray.d)))};
+  return {number_cast<float>(transform_point(object_from_world, number_cast<double>(ray.o))),
+          number_cast<float>(transform_vector(object_from_world, number_cast<double>(ray.d)))};
 }
 
-/// Asks the primitives of a leaf: see(instance, ref, meeting) for each that some ray meets.
+/// Asks one primitive of any kind: see(instance, ref, meeting) where some ray meets it.
+template <class F, class See>
+void ask_primitive(const WorldView& world, const PrimitiveRef& ref, std::int32_t instance,
+                   const QueryRay<F>& ray, const See& see) {
+  const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, ray);
+  if (any(m.hit)) see(instance, ref, m);
+}
+
+/// Asks the primitives of a leaf, likewise.
 template <class F, class See>
 void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray,
               const See& see) {
@@ -326,8 +325,7 @@ void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instanc
       }
       return;
     case LeafKind::mixed:
-      for (std::uint32_t i = 0; i < leaf.count; ++i)
-        ask(refs[i], meet(world.geometries[refs[i].geometry], refs[i].primitive, ray));
+      for (std::uint32_t i = 0; i < leaf.count; ++i) ask_primitive(world, refs[i], instance, ray, see);
       return;
   }
 }
@@ -350,18 +348,15 @@ void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instanc
         for (int c = 0; c < 3; ++c) p[c][k] = g.vertices[v[c]];
       }
       const auto corner = [&](int c) {
-        return Vec3<Four>{gather<Four>([&](int k) { return p[c][k].x; }),
-                          gather<Four>([&](int k) { return p[c][k].y; }),
-                          gather<Four>([&](int k) { return p[c][k].z; })};
+        return gather_points<Four>([&](int k) -> const Vec3<float>& { return p[c][k]; });
       };
       m = meet_triangle(four_rays, corner(0), corner(1), corner(2));
     } else {
-      const LeafSphere* s = world.leaf_spheres + leaf.first;
-      m = meet_sphere(four_rays,
-                      Vec3<Four>{gather<Four>([&](int k) { return s[of_lane(k)].x; }),
-                                 gather<Four>([&](int k) { return s[of_lane(k)].y; }),
-                                 gather<Four>([&](int k) { return s[of_lane(k)].z; })},
-                      gather<Four>([&](int k) { return s[of_lane(k)].radius; }));
+      const auto sphere = [&](int k) -> const LeafSphere& {
+        return world.leaf_spheres[leaf.first + of_lane(k)];
+      };
+      m = meet_sphere(four_rays, gather_points<Four>(sphere),
+                      gather<Four>([&](int k) { return sphere(k).radius; }));
     }
     const std::uint32_t real = (1u << min(leaf.count - first, 4u)) - 1;
     for (std::uint32_t met = lane_bits(m.hit) & real; met; met &= met - 1) {
@@ -375,31 +370,28 @@ void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instanc
 /// before t_far[i].
 template <class F, class See>
 void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far, int count, const See& see) {
+  const auto of_packet = [&](int i) {
+    return [&see, i](std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {
+      see(i, instance, ref, m);
+    };
+  };
   for (std::uint32_t p = 0; p < world.plane_count; ++p)
-    for (int i = 0; i < count; ++i) {
-      const Meeting<F> m =
-          meet(world.geometries[world.planes[p].geometry], world.planes[p].primitive, rays[i]);
-      if (any(m.hit)) see(i, -1, world.planes[p], m);
-    }
+    for (int i = 0; i < count; ++i) ask_primitive(world, world.planes[p], -1, rays[i], of_packet(i));
   const auto four_rays = [&] {
-    if constexpr (lanes_of<F> > 1) return 0;
+    if constexpr (lanes_of < F >> 1) return 0;
     else return QueryRay<Pack<float, 4>>(rays[0]);
   }();
   const auto ask = [&](const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray, int i) {
-    const auto seen = [&](std::int32_t in, const PrimitiveRef& ref, const Meeting<F>& m) {
-      see(i, in, ref, m);
-    };
-    if constexpr (lanes_of<F> > 1) ask_leaf(world, leaf, instance, ray, seen);
-    else if (instance < 0) ask_leaf(world, leaf, instance, ray, four_rays, seen);
-    else ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), seen);
+    if constexpr (lanes_of < F >> 1) ask_leaf(world, leaf, instance, ray, of_packet(i));
+    else if (instance < 0) ask_leaf(world, leaf, instance, ray, four_rays, of_packet(i));
+    else ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), of_packet(i));
   };
   traverse_packets(world, world.bvhs[0], rays, t_far, count, [&](const BvhChild& leaf, int i) {
     if (leaf.kind != LeafKind::mixed) return ask(leaf, -1, rays[i], i);
     for (std::uint32_t r = leaf.first; r < leaf.first + leaf.count; ++r) {
       const PrimitiveRef& ref = world.refs[r];
       if (ref.geometry != instance_geometry) {
-        const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, rays[i]);
-        if (any(m.hit)) see(i, -1, ref, m);
+        ask_primitive(world, ref, -1, rays[i], of_packet(i));
         continue;
       }
       const Instance& instance = world.instances[ref.primitive];

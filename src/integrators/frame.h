@@ -59,6 +59,7 @@ struct Frame {
   int samples;
   const AnyLight* lights;
   int light_count;
+  bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
   const MaterialRecord* materials;
   FadingRecord fading[model_count];
   Rgb ambient, background;
@@ -119,8 +120,8 @@ struct ColorQueue {
   }
 };
 
-/// One thread's memory; it grows as needed and is used again from task to task. grow() is not a kernel's
-/// code, so that no allocation is compiled for an instruction set.
+/// One thread's memory; it grows as needed and is used again from task to task of one frame. grow() is not a
+/// kernel's code, so that no allocation is compiled for an instruction set.
 struct Scratch {
   RayQueue rays, next_rays;
   ColorQueue samples;

@@ -51,9 +51,9 @@ std::uint64_t primitive_count(const Scene& scene) {
 }  // namespace
 
 TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
-  // Measured in seconds of one thread: a thorough tree costs 0.6 us more for each primitive. For each sample it
-  // saves 0.04 us (a million triangles, two lights) to 0.25 us (gears of glass), 10 to 30 % of the whole. So it pays
-  // from somewhere between 2.5 and 15 samples for each primitive on.
+  // Measured in seconds of one thread: a thorough tree costs 0.6 us more for each primitive. For each sample
+  // it saves 0.04 us (a million triangles, two lights) to 0.25 us (gears of glass), 10 to 30 % of the whole.
+  // So it pays from somewhere between 2.5 and 15 samples for each primitive on.
   return samples < 2 * primitives ? TreeQuality::quick : TreeQuality::thorough;
 }
 
@@ -82,6 +82,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();
   frame.light_count = int(prepared->lights.size());
+  for (const AnyLight& light : prepared->lights)
+    frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
   for (const Material& material : scene.materials)
     prepared->materials.push_back(material_record(material, scene.illumination.model));
   frame.materials = prepared->materials.data();

@@ -42,10 +42,6 @@ constexpr int group_count = kinds * 2 * model_count;
 constexpr std::uint8_t no_group = 255;
 static_assert(group_count < no_group);
 
-Vec3<Query> to_query(const Vec3<F>& v) {
-  return {number_cast<float>(v.x), number_cast<float>(v.y), number_cast<float>(v.z)};
-}
-
 /// A task on its way through the stages.
 struct Work {
   const Frame& frame;
@@ -61,6 +57,8 @@ struct Work {
       Scratch::grow(scratch.open, std::uint32_t(frame.light_count) * beam);
       Scratch::grow(scratch.reaching, std::uint32_t(frame.light_count));
     }
+    light_count = frame.light_count;
+    for (int l = 0; l < light_count; ++l) scratch.reaching[l] = std::uint32_t(l);
     const std::uint64_t samples = std::uint64_t(task.count) * samples_per_pixel();
     for (std::uint64_t first = 0; first < samples; first += batch_size) {
       const auto count = std::uint32_t(min<std::uint64_t>(batch_size, samples - first));
@@ -68,7 +66,7 @@ struct Work {
       for (depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
         sort_into_groups();
-        choose_lights();
+        if (frame.lights_have_limits && hit_count() > 0) choose_lights();
         if (depth == 1) counts.eye_hits += hit_count();
         scratch.next_rays.count = 0;
         for (int group = 0; group < group_count; ++group)
@@ -111,7 +109,7 @@ struct Work {
                     d = normalize(forward + F(camera.spread_of_directions) * aside);
       o.x.store(&rays.ox[i]), o.y.store(&rays.oy[i]), o.z.store(&rays.oz[i]);
       d.x.store(&rays.dx[i]), d.y.store(&rays.dy[i]), d.z.store(&rays.dz[i]);
-      const Vec3<Query> q = to_query(o);
+      const Vec3<Query> q = number_cast<float>(o);
       q.x.store(&rays.qx[i]), q.y.store(&rays.qy[i]), q.z.store(&rays.qz[i]);
       F(0.0).store(&rays.R[i]);
       for (int c = 0; c < color_channels; ++c) {
@@ -142,9 +140,9 @@ struct Work {
     Closest<Query> hit[beam];
     int count = 0;
     for (std::uint32_t i = first; i < rays.count && count < beam; i += lanes, ++count) {
-      ray[count] =
-          QueryRay<Query>({Query::load(&rays.qx[i]), Query::load(&rays.qy[i]), Query::load(&rays.qz[i])},
-                          to_query({F::load(&rays.dx[i]), F::load(&rays.dy[i]), F::load(&rays.dz[i])}));
+      ray[count] = QueryRay<Query>(
+          {Query::load(&rays.qx[i]), Query::load(&rays.qy[i]), Query::load(&rays.qz[i])},
+          number_cast<float>(Vec3<F>{F::load(&rays.dx[i]), F::load(&rays.dy[i]), F::load(&rays.dz[i])}));
       active[count] = first_lanes<float>(rays.count - i);
       hit[count] = {Query(__builtin_inff())};
     }
@@ -237,7 +235,6 @@ struct Work {
     const Reach box{{lower[0] - margin, lower[1] - margin, lower[2] - margin},
                     {upper[0] + margin, upper[1] + margin, upper[2] + margin}};
     light_count = 0;
-    if (hit_count() == 0) return;
     for (int l = 0; l < frame.light_count; ++l)
       if (with_light(frame.lights[l], [&](const auto& light) { return reaches(light, box); }))
         scratch.reaching[light_count++] = std::uint32_t(l);
@@ -411,7 +408,7 @@ struct Work {
   }
 
   static QueryRay<Query> shadow_ray(const Hits& hits, const Vec3<F>& L) {
-    return {to_query(hits.front), to_query(L)};
+    return {number_cast<float>(hits.front), number_cast<float>(L)};
   }
 
   bool all_opaque() const { return !frame.any_transmits || !frame.whitted.colored_shadows; }
@@ -419,8 +416,8 @@ struct Work {
   [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
                                       MaskOf<Query>* open) const {
     if (depth == 1) return find_open(frame.world, rays, t_far, count, all_opaque(), open);
-    // What scattered rays have found lies anywhere: packet by packet where the shadow rays still go together, and
-    // one by one where they do not.
+    // What scattered rays have found lies anywhere: packet by packet where the shadow rays still go together,
+    // and one by one where they do not.
     const float extent = frame.world.bvhs[0].extent;
     for (int i = 0; i < count; ++i) {
       if (PacketBeam::suits(rays + i, t_far + i, 1, extent)) {
@@ -429,9 +426,8 @@ struct Work {
       }
       for (std::uint32_t asked = lane_bits(open[i]); asked; asked &= asked - 1) {
         const int k = __builtin_ctz(asked);
-        const QueryRay<float> ray({lane(rays[i].o.x, k), lane(rays[i].o.y, k), lane(rays[i].o.z, k)},
-                                  {lane(rays[i].d.x, k), lane(rays[i].d.y, k), lane(rays[i].d.z, k)});
-        if (find_occluded(frame.world, ray, true, lane(t_far[i], k), all_opaque())) set_lane(open[i], k, false);
+        if (find_occluded(frame.world, lane(rays[i], k), true, lane(t_far[i], k), all_opaque()))
+          set_lane(open[i], k, false);
       }
     }
   }
@@ -444,12 +440,12 @@ struct Work {
     return passes * transmittance(open, hits, light);
   }
 
-  void tell(const QueryRay<Query>& ray, std::uint32_t asked, const Query& t_far) const {
+  void tell(const QueryRay<Query>& rays, std::uint32_t asked, const Query& t_far) const {
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);
-      frame.listener->asked(frame.listener->self,
-                            {lane(ray.o.x, k), lane(ray.o.y, k), lane(ray.o.z, k), lane(ray.d.x, k),
-                             lane(ray.d.y, k), lane(ray.d.z, k), lane(t_far, k), RayKind::shadow});
+      const QueryRay<float> ray = lane(rays, k);
+      frame.listener->asked(frame.listener->self, {ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z,
+                                                   lane(t_far, k), RayKind::shadow});
     }
   }
 
@@ -461,16 +457,14 @@ struct Work {
     double left[color_channels][lanes] = {};
     for (; open; open &= open - 1) {
       const int k = __builtin_ctz(open);
-      const Rgb one = transmittance(rays, k, float(lane(light.r, k)));
+      const Rgb one = transmittance(lane(rays, k), float(lane(light.r, k)));
       for (int c = 0; c < color_channels; ++c) left[c][k] = one[c];
     }
     C result;
     for (int c = 0; c < color_channels; ++c) result[c] = F::load(left[c]);
     return result;
   }
-  Rgb transmittance(const QueryRay<Query>& packet, int k, float t_far) const {
-    QueryRay<float> ray({lane(packet.o.x, k), lane(packet.o.y, k), lane(packet.o.z, k)},
-                        {lane(packet.d.x, k), lane(packet.d.y, k), lane(packet.d.z, k)});
+  Rgb transmittance(QueryRay<float> ray, float t_far) const {
     const Vec3<double> d = normalize(cast<double>(ray.d));
     double left = t_far;
     Rgb result = grey(1.0);
@@ -584,7 +578,7 @@ struct Work {
     Leaving(const Vec3<F>& origin, const Vec3<F>& start, const Vec3<F>& direction, const C& of_color) {
       origin.x.store(o[0]), origin.y.store(o[1]), origin.z.store(o[2]);
       direction.x.store(d[0]), direction.y.store(d[1]), direction.z.store(d[2]);
-      const Vec3<Query> query = to_query(start);
+      const Vec3<Query> query = number_cast<float>(start);
       query.x.store(q[0]), query.y.store(q[1]), query.z.store(q[2]);
       for (int c = 0; c < color_channels; ++c) of_color[c].store(weight[c]);
     }

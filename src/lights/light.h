@@ -7,7 +7,7 @@
 //   template <class F> LightSample<F, Color<F>> sample(const TheLight&, const Vec3<F>& P, F u, F v)
 //
 // which answers for one point on the light, chosen by u and v in [0, 1); (0.5, 0.5) is the light's centre.
-// A light that lights only part of the world may say so with `reaches`, below.
+// A light that lights only part of the world may say so with `reaches` and `has_limits`, below.
 //
 // What it hands out is the colour Il before attenuation: how light fades with distance is the scene's choice,
 // not the light's. The lecture's name for all this is light_t.
@@ -58,6 +58,8 @@ struct Reach {
 /// Whether a light may light anything in a box: true where the light does not say. Lights that cannot reach
 /// are not asked for any point in it. `sample` must hand out black wherever this says no.
 template <class Light> bool reaches(const Light&, const Reach&) { return true; }
+/// Whether it ever says no.
+template <class Light> bool has_limits(const Light&) { return false; }
 
 /// Whether a box comes as near to a point as `distance`.
 inline bool comes_near(const Reach& box, const Vec3<double>& point, double distance) {

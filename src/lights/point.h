@@ -26,6 +26,7 @@ template <class F> LightSample<F, Color<F>> sample(const PointLight& light, cons
 inline bool reaches(const PointLight& light, const Reach& box) {
   return !(light.max_distance > 0) || comes_near(box, light.position, light.max_distance);
 }
+inline bool has_limits(const PointLight& light) { return light.max_distance > 0; }
 
 }  // namespace LAMBENT_ISA
 

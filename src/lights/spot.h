@@ -54,6 +54,7 @@ inline bool reaches(const SpotLight& light, const Reach& box) {
   const auto [sine, cosine] = sincos_degrees(light.angle / 2);
   return across * cosine - along * sine <= radius;
 }
+inline bool has_limits(const SpotLight& light) { return light.angle < 180 || light.max_distance > 0; }
 
 }  // namespace LAMBENT_ISA
 

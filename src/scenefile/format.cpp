@@ -201,6 +201,8 @@ Format make_format() {
                      "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as "
                      "they are, as "
                      "renderers once did. EXR is always linear.")});
+  f.samples = section("samples", "how many samples a pixel gets, where it is not the same number for all",
+                      {field("adaptive", FieldType::section, "", "As many as each pixel needs.")});
   f.adaptive = section("adaptive", "samples where the picture needs them", fields_of<AdaptiveSamples>());
   f.attenuation =
       section("attenuation", "1 / (constant + linear r + quadratic r^2)", fields_of<AttenuationSettings>());

@@ -58,10 +58,7 @@ void read_samples(Reader& reader, const Value& value, ImageSettings& image) {
     reader.integer(value, sample_range, image.samples);
     return;
   }
-  Field kind;
-  kind.name = "adaptive", kind.type = FieldType::section;
-  const std::vector<Field> kinds{kind};
-  const auto ways = reader.mapping(value, kinds, "the samples");
+  const auto ways = reader.mapping(value, format().samples.fields, "the samples");
   if (!ways) return;
   const Value* adaptive = ways->find("adaptive");
   if (adaptive == nullptr) {

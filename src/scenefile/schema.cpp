@@ -95,12 +95,7 @@ Json value_of_type(const Field& field) {
     case FieldType::attenuation:
       return {{"oneOf", {words(names_of<Attenuation>()), reference("attenuation")}}};
     case FieldType::samples:
-      return {{"oneOf",
-               {{{"type", "integer"}, {"minimum", range.min}, {"maximum", range.max}},
-                Json{{"type", "object"},
-                     {"properties", {{"adaptive", reference("adaptive")}}},
-                     {"required", {"adaptive"}},
-                     {"additionalProperties", false}}}}};
+      return {{"oneOf", {number_in(range, "integer"), reference("samples")}}};
     case FieldType::material:
       return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("material")}}};
     case FieldType::transform:
@@ -151,6 +146,8 @@ std::string scene_schema() {
   Json& definitions = schema["definitions"] = Json::object();
   definitions["camera"] = object_of(f.camera);
   definitions["image"] = object_of(f.image);
+  definitions["samples"] = object_of(f.samples);
+  definitions["samples"]["minProperties"] = 1;
   definitions["adaptive"] = object_of(f.adaptive);
   definitions["illumination"] = object_of(f.illumination);
   definitions["attenuation"] = object_of(f.attenuation);

@@ -107,14 +107,23 @@ Scene random_scene(Random& random, double spread) {
   return scene;
 }
 
+/// random_scene, ready for rays about `middle`.
+struct RandomWorld {
+  Random random;
+  const Scene scene;
+  const World world = build_world(scene);
+  const WorldView view = world.view();
+  const Vec3<double> middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+
+  RandomWorld(unsigned seed, double spread) : random(seed), scene(random_scene(random, spread)) {}
+};
+
 std::uint32_t bits(float a) { return std::bit_cast<std::uint32_t>(a); }
 
 TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
   for (double spread : {0.0, 30.0, 3000.0}) {
-    Random random(unsigned(spread) + 1);
-    const Scene scene = random_scene(random, spread);
-    const World world = build_world(scene);
-    const WorldView view = world.view();
+    RandomWorld in(unsigned(spread) + 1, spread);
+    auto& [random, scene, world, view, middle] = in;
     // All primitives in one leaf: the same loop, and no box that could be passed over.
     std::vector<BvhNode> leaves;
     std::vector<Bvh> trees;
@@ -143,7 +152,6 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
     brute.nodes = leaves.data();
     brute.bvhs = trees.data();
 
-    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
     int hits = 0;
     for (int i = 0; i < 1000; ++i) {
       Vec3<QueryPack> packet_o, packet_d;
@@ -187,11 +195,8 @@ TEST(Queries, TreeAndPacketGiveTheBitsOfBruteForce) {
 TEST(Queries, ABeamOfPacketsGivesTheBitsOfEachRay) {
   // Rays that lie close together go through the tree as one; some that do not are among them.
   for (double spread : {0.0, 30.0, 3000.0}) {
-    Random random(unsigned(spread) + 5);
-    const Scene scene = random_scene(random, spread);
-    const World world = build_world(scene);
-    const WorldView view = world.view();
-    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+    RandomWorld in(unsigned(spread) + 5, spread);
+    auto& [random, scene, world, view, middle] = in;
     int hits = 0, blocked_rays = 0;
     for (int i = 0; i < 1500; ++i) {
       constexpr int most = max_packets;
@@ -211,9 +216,7 @@ TEST(Queries, ABeamOfPacketsGivesTheBitsOfEachRay) {
       QueryPack t_far[most];
       for (int p = 0; p < count; ++p) {
         const auto vectors = [&](const Vec3<float>* v) {
-          return Vec3<QueryPack>{gather<QueryPack>([&](int k) { return v[p * lanes + k].x; }),
-                                 gather<QueryPack>([&](int k) { return v[p * lanes + k].y; }),
-                                 gather<QueryPack>([&](int k) { return v[p * lanes + k].z; })};
+          return gather_points<QueryPack>([&](int k) -> const Vec3<float>& { return v[p * lanes + k]; });
         };
         rays[p] = QueryRay<QueryPack>(vectors(o), vectors(d));
         active[p] = gather<QueryPack>([&](int) { return float(random.number(-1, 9)); }) > QueryPack(0.f);
@@ -313,11 +316,8 @@ TEST(Queries, NoRayIsLostInAGrid) {
 /// primitive they leave.
 TEST(Queries, NoRayHitsThePrimitiveItLeaves) {
   for (double spread : {0.0, 10.0, 1000.0, 1e6}) {
-    Random random(unsigned(spread) + 20);
-    const Scene scene = random_scene(random, spread);
-    const World world = build_world(scene);
-    const WorldView view = world.view();
-    const auto& middle = std::get<std::vector<Sphere>>(scene.shapes[1].primitives)[0].center;
+    RandomWorld in(unsigned(spread) + 20, spread);
+    auto& [random, scene, world, view, middle] = in;
     long self_hits = 0, leaves = 0;
     for (int i = 0; i < 20000; ++i) {
       const Vec3<double> o = middle + random.point(2), d = random.direction();

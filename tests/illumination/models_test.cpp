@@ -10,6 +10,7 @@
 
 #include "illumination/equation.h"
 #include "illumination/models.h"
+#include "math/gather.h"
 #include "math/pack.h"
 
 namespace lambent {
@@ -225,9 +226,7 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
       Situation one[lanes_of<P>];
       for (Situation& situation : one) situation = random_situation(random, Model::info);
       const auto vectors = [&](const auto& of) {
-        return Vec3<P>{gather<P>([&](int k) { return of(one[k]).x; }),
-                       gather<P>([&](int k) { return of(one[k]).y; }),
-                       gather<P>([&](int k) { return of(one[k]).z; })};
+        return gather_points<P>([&](int k) { return of(one[k]); });
       };
       Surface<P, CP> s;
       Arriving<P, CP> light;
