@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "describe.h"
 #include "embree_queries.h"
 #include "film/film.h"
 #include "integrators/kernels.h"
@@ -205,41 +206,14 @@ struct Agreement {
 
 /// Bytes of what the picture needs: the vertices and indices that the scene holds, and what was built on
 /// them.
-struct Sizes {
-  std::size_t vertices = 0, indices = 0, shapes = 0, tree = 0;
-  Json json() const {
-    return {{"vertices", vertices}, {"indices", indices}, {"shapes", shapes}, {"tree", tree}};
-  }
-};
-template <class T> std::size_t bytes(const std::vector<T>& v) { return v.size() * sizeof(T); }
-template <class T> std::size_t bytes(const std::vector<std::unique_ptr<std::vector<T>>>& store) {
-  std::size_t sum = 0;
-  for (const auto& v : store) sum += bytes(*v);
-  return sum;
-}
-
-Sizes sizes_of(const Scene& scene, const World& world) {
-  Sizes sizes;
-  for (const Shape& shape : scene.shapes) {
-    sizes.indices += bytes(shape.material_of_primitive);
-    if (const auto* mesh = std::get_if<Mesh>(&shape.primitives)) {
-      sizes.vertices += bytes(mesh->vertices) + bytes(mesh->normals) + bytes(mesh->uvs);
-      sizes.indices += bytes(mesh->triangles);
-    } else {
-      std::visit(
-          [&](const auto& primitives) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(primitives)>, Mesh>)
-              sizes.shapes += bytes(primitives);
-          },
-          shape.primitives);
-    }
-  }
-  sizes.vertices += bytes(world.placed_points);
-  sizes.shapes += bytes(world.placed_spheres) + bytes(world.placed_cones) + bytes(world.placed_discs) +
-                  bytes(world.placed_planes);
-  sizes.tree = bytes(world.bvhs) + bytes(world.nodes) + bytes(world.refs) + bytes(world.leaf_spheres) +
-               bytes(world.geometries) + bytes(world.instances) + bytes(world.objects) + bytes(world.planes);
-  return sizes;
+Json sizes_of(const Scene& scene, const PreparedFrame& prepared) {
+  Stats stats;
+  describe(scene, prepared, stats);
+  const auto& b = stats.bytes;
+  return {{"vertices", b.vertices + b.normals + b.uvs},
+          {"indices", b.indices},
+          {"shapes", b.shapes + b.placed},
+          {"tree", b.nodes + b.refs}};
 }
 
 /// The process' largest memory so far, or since forget_peak(). Linux tells it in /proc.
@@ -267,7 +241,7 @@ double reach_of(const Scene& scene) {
 Json measure_memory(const Scene& scene, const Options& options) {
   auto prepared = prepare(scene);
   Json json{{"scene", options.scene}, {"only", options.only}};
-  json["bytes"] = sizes_of(scene, prepared->world).json();
+  json["bytes"] = sizes_of(scene, *prepared);
   if (options.only == "lambent") {
     render_frame(scene, prepared->frame, choose_kernel(options.isa), options.threads, options.tile_size);
   } else {
@@ -387,7 +361,7 @@ Json measure_time(const Scene& scene, const Options& options) {
                   {"eye_hits", rendered.counts.eye_hits},
                   {"scattered", rays.scattered},
                   {"shadow", rays.shadow}};
-  json["bytes"] = sizes_of(scene, prepared->world).json();
+  json["bytes"] = sizes_of(scene, *prepared);
   json["lambent"] = {{"build_seconds", build}, {"seconds", lambent.json()}};
   json["embree"] = {{"version", EmbreeWorld::version()},
                     {"build_seconds", embree_build},

@@ -11,34 +11,17 @@
 #include <functional>
 #include <string_view>
 
+#include "compiled_sets.h"
 #include "integrators/kernels.h"
 #include "lambent/diagnostics.h"
 #include "measured.h"
 #include "own_queries.h"
 
-namespace lambent {
-namespace isa_baseline {
-extern const bench::MeasuredKernel bench_measured;
-}
-#ifdef LAMBENT_X86_KERNELS
-namespace isa_avx2 {
-extern const bench::MeasuredKernel bench_measured;
-}
-namespace isa_avx512 {
-extern const bench::MeasuredKernel bench_measured;
-}
-#endif
+LAMBENT_COMPILED_SETS(const bench::MeasuredKernel, bench_measured)
 
+namespace lambent {
 namespace bench {
 namespace {
-
-const MeasuredKernel& measured_kernel(const std::string& isa) {
-#ifdef LAMBENT_X86_KERNELS
-  for (const MeasuredKernel* kernel : {&isa_avx512::bench_measured, &isa_avx2::bench_measured})
-    if (isa == kernel->isa) return *kernel;
-#endif
-  return isa_baseline::bench_measured;
-}
 
 /// Something that can be measured: `lanes` numbers or rays for each step.
 struct Part {
@@ -115,7 +98,7 @@ Part query_part(const std::string& name, std::function<void(const QueryInput&, f
 
 std::vector<Part> parts_of(const std::string& isa) {
   std::vector<Part> parts;
-  const MeasuredKernel& kernel = measured_kernel(isa);
+  const auto& kernel = compiled_for<MeasuredKernel>(isa, LAMBENT_ALL_COMPILED(bench_measured));
   for (int i = 0; i < kernel.count; ++i)
     parts.push_back({kernel.pieces[i].name, kernel.pieces[i].lanes, kernel.pieces[i].run});
   const OwnQueries& own = own_queries(isa);

@@ -11,7 +11,7 @@ namespace lambent {
 inline namespace LAMBENT_ISA {
 namespace {
 
-using DoublePack = Pack<double, native_float_lanes / 2>;
+using DoublePack = Pack<double, native_float_lanes>;
 
 /// What is computed goes here, so that the compiler must compute it.
 volatile double sink;

@@ -1,30 +1,13 @@
 #include "own_queries.h"
 
-#include "lambent/diagnostics.h"
+#include "compiled_sets.h"
 
-namespace lambent {
-namespace isa_baseline {
-extern const bench::OwnQueries bench_queries;
-}
-#ifdef LAMBENT_X86_KERNELS
-namespace isa_avx2 {
-extern const bench::OwnQueries bench_queries;
-}
-namespace isa_avx512 {
-extern const bench::OwnQueries bench_queries;
-}
-#endif
+LAMBENT_COMPILED_SETS(const bench::OwnQueries, bench_queries)
 
-namespace bench {
+namespace lambent::bench {
 
 const OwnQueries& own_queries(const std::string& isa) {
-#ifdef LAMBENT_X86_KERNELS
-  for (const OwnQueries* queries : {&isa_avx512::bench_queries, &isa_avx2::bench_queries})
-    if (isa == queries->isa) return *queries;
-#endif
-  if (isa == isa_baseline::bench_queries.isa) return isa_baseline::bench_queries;
-  throw Failure("no queries are compiled for the instruction set '" + isa + "'");
+  return compiled_for<OwnQueries>(isa, LAMBENT_ALL_COMPILED(bench_queries));
 }
 
-}  // namespace bench
-}  // namespace lambent
+}  // namespace lambent::bench

@@ -23,29 +23,56 @@ template <class F> QueryRay<F> ray_at(const bench::RayBlock& b, std::uint32_t i)
           {load<F>(b.dx + i), load<F>(b.dy + i), load<F>(b.dz + i)}};
 }
 
-template <class F>
-void all_closest(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, float* answers) {
-  for (std::uint32_t i = 0; i < count; i += lanes_of<F>) {
-    Closest<F> hit{F(__builtin_inff())};
-    find_closest(world, ray_at<F>(rays[i / bench::block_size], i % bench::block_size), MaskOf<F>(true), hit);
-    store(hit.t, answers + i);
+/// Calls ask(rays, first, packets) for beams of at most `size` packets (or numbers); `first` is the number of
+/// a beam's first ray.
+template <class F, class Ask>
+void for_beams(const bench::RayBlock* rays, std::uint32_t count, std::uint32_t size, const Ask& ask) {
+  constexpr std::uint32_t lanes = lanes_of<F>;
+  const std::uint32_t packets = (count + lanes - 1) / lanes;
+  for (std::uint32_t first = 0; first < packets; first += size) {
+    QueryRay<F> beam_rays[max_packets];
+    const std::uint32_t in_beam = min(size, packets - first);
+    for (std::uint32_t i = 0; i < in_beam; ++i) {
+      const std::uint32_t ray = (first + i) * lanes;
+      beam_rays[i] = ray_at<F>(rays[ray / bench::block_size], ray % bench::block_size);
+    }
+    ask(beam_rays, first * lanes, int(in_beam));
   }
+}
+
+template <class F>
+void all_closest(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, std::uint32_t size,
+                 float* answers) {
+  for_beams<F>(rays, count, size, [&](const QueryRay<F>* beam_rays, std::uint32_t first, int in_beam) {
+    Closest<F> hits[max_packets];
+    MaskOf<F> active[max_packets];
+    for (int i = 0; i < in_beam; ++i) hits[i] = {F(__builtin_inff())}, active[i] = MaskOf<F>(true);
+    find_closest(world, beam_rays, active, in_beam, hits);
+    for (int i = 0; i < in_beam; ++i) store(hits[i].t, answers + first + std::uint32_t(i * lanes_of<F>));
+  });
 }
 
 void closest(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, bool packets,
              float* answers) {
-  if (packets) all_closest<QueryPack>(world, rays, count, answers);
-  else all_closest<float>(world, rays, count, answers);
+  if (packets) all_closest<QueryPack>(world, rays, count, beam, answers);
+  else all_closest<float>(world, rays, count, 1, answers);
 }
 
 void occluded(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, float* answers) {
-  for (std::uint32_t i = 0; i < count; i += native_float_lanes) {
-    const bench::RayBlock& b = rays[i / bench::block_size];
-    const auto t_far = QueryPack::load(b.t_far + i % bench::block_size);
-    const auto blocked = find_occluded(world, ray_at<QueryPack>(b, i % bench::block_size),
-                                       MaskOf<QueryPack>(true), t_far, true);
-    store(select(blocked, QueryPack(-__builtin_inff()), t_far), answers + i);
-  }
+  for_beams<QueryPack>(
+      rays, count, beam, [&](const QueryRay<QueryPack>* beam_rays, std::uint32_t first, int in_beam) {
+        QueryPack t_far[max_packets];
+        MaskOf<QueryPack> open[max_packets];
+        for (int i = 0; i < in_beam; ++i) {
+          const std::uint32_t ray = first + std::uint32_t(i * native_float_lanes);
+          t_far[i] = QueryPack::load(rays[ray / bench::block_size].t_far + ray % bench::block_size);
+          open[i] = MaskOf<QueryPack>(true);
+        }
+        find_open(world, beam_rays, t_far, in_beam, true, open);
+        for (int i = 0; i < in_beam; ++i)
+          store(select(open[i], t_far[i], QueryPack(-__builtin_inff())),
+                answers + first + std::uint32_t(i * native_float_lanes));
+      });
 }
 
 }  // namespace

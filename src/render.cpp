@@ -6,6 +6,7 @@
 #include <chrono>
 #include <thread>
 
+#include "describe.h"
 #include "film/film.h"
 #include "integrators/kernels.h"
 #include "integrators/prepare.h"
@@ -35,44 +36,6 @@ std::uint64_t peak_memory_bytes() {
   return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
-template <class T> std::uint64_t bytes_of(const std::vector<T>& list) { return list.size() * sizeof(T); }
-template <class T> std::uint64_t bytes_of(const std::vector<std::unique_ptr<std::vector<T>>>& lists) {
-  std::uint64_t sum = 0;
-  for (const auto& list : lists) sum += bytes_of(*list);
-  return sum;
-}
-
-void describe(const Scene& scene, const PreparedFrame& prepared, Stats& stats) {
-  const World& world = prepared.world;
-  for (const Geometry& geometry : world.geometries) stats.scene.primitives += geometry.count;
-  stats.scene.instances = world.instances.size();
-  for (const Bvh& bvh : world.bvhs) stats.scene.trees += !bvh.empty;
-  stats.scene.nodes = world.nodes.size();
-  stats.scene.lights = scene.lights.size();
-  stats.tree_quality = prepared.tree_quality == TreeQuality::quick ? "quick" : "thorough";
-
-  auto& bytes = stats.bytes;
-  for (const Shape& shape : scene.shapes) {
-    if (const auto* mesh = std::get_if<Mesh>(&shape.primitives)) {
-      bytes.vertices += bytes_of(mesh->vertices);
-      bytes.normals += bytes_of(mesh->normals);
-      bytes.uvs += bytes_of(mesh->uvs);
-      bytes.indices += bytes_of(mesh->triangles);
-    } else {
-      std::visit(
-          [&](const auto& list) {
-            if constexpr (requires { bytes_of(list); }) bytes.shapes += bytes_of(list);
-          },
-          shape.primitives);
-    }
-  }
-  bytes.placed = bytes_of(world.placed_points) + bytes_of(world.placed_spheres) +
-                 bytes_of(world.placed_cones) + bytes_of(world.placed_discs) + bytes_of(world.placed_planes) +
-                 bytes_of(world.placed_numbers);
-  bytes.nodes = bytes_of(world.nodes);
-  bytes.refs = bytes_of(world.refs) + bytes_of(world.leaf_spheres);
-}
-
 }  // namespace
 
 const char* version() { return LAMBENT_VERSION; }
@@ -94,7 +57,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   describe(*scene, *prepared, stats);
   stats.seconds.build = clock.lap();
   Film film(scene->image);
-  stats.bytes.film = bytes_of(film.colors);
+  stats.bytes.film = film.colors.size() * sizeof(film.colors[0]);
   const double pixels = double(film.width) * film.height;
   const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
   const TileRun run = scene->image.adaptive && scene->image.pattern != Pattern::corners

@@ -38,6 +38,8 @@ template <class F> struct QueryRay {
   F shear_x, shear_y, scale;
 
   QueryRay() = default;
+  QueryRay(const QueryRay&) = default;
+  QueryRay& operator=(const QueryRay&) = default;
   QueryRay(const Vec3<F>& origin, const Vec3<F>& direction) : o(origin), d(direction) {
     const F x = abs(d.x), y = abs(d.y), z = abs(d.z);
     along_x = both(x > y, x > z);

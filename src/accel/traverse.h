@@ -27,8 +27,9 @@ template <class F> struct Closest {
   HitIds<I> ids{I(-1), I(-1), I(-1)};
 };
 
-/// Packets of rays that go through a tree together, at most this many.
-inline constexpr int max_packets = 8;
+/// Packets of rays that go through a tree together: at most so many, and so many as are best for eye and
+/// shadow rays.
+inline constexpr int max_packets = 8, beam = 4;
 
 /// The rays as the boxes see them. A box is met between its sides along x, y and z; from a side at p the ray
 /// is (p - o) / d away, or p / d - o / d.

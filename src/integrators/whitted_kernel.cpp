@@ -28,7 +28,6 @@ constexpr int lanes = native_float_lanes;
 using Query = Pack<float, lanes>;
 using F = Pack<double, lanes>;
 using C = Color<F>;
-constexpr int beam = 4;  // packets of eye or shadow rays that go through the tree together
 using Truth = MaskOf<F>;
 
 // All that is done to a packet of hits in one piece of code, so that it stays in registers.
