@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <thread>
 
 #include "describe.h"
@@ -56,8 +57,10 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const auto prepared = prepare(*scene);
   describe(*scene, *prepared, stats);
   stats.seconds.build = clock.lap();
-  Film film(scene->image);
-  stats.bytes.film = film.colors.size() * sizeof(film.colors[0]);
+  std::optional<LayerBook> book;
+  if (scene->film.layers) book.emplace(*scene, prepared->frame.layers, prepared->frame.samples);
+  Film film(scene->image, book ? &*book : nullptr);
+  stats.bytes.film = film.values.size() * sizeof(float);
   const double pixels = double(film.width) * film.height;
   const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
   const TileRun run = scene->image.adaptive && scene->image.pattern != Pattern::corners
@@ -67,6 +70,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
 
   result.image = develop(std::move(film), scene->image);
   result.metadata = settings_metadata(*scene);
+  if (book) result.metadata.insert(result.metadata.end(), book->metadata().begin(), book->metadata().end());
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;

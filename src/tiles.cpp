@@ -28,7 +28,20 @@ struct Worker {
   std::vector<Pixel> pixels;
   std::vector<double> sums;
   std::vector<float> least_and_greatest;
+  std::vector<double> layer_sums;
+  std::vector<FirstHit> first_hits;
+  PixelHits hits;
 };
+
+/// How far the pattern's samples lie from the pixel's centre.
+std::vector<double> distances_from_centre(const Frame& frame) {
+  std::vector<double> result;
+  for (int i = 0; i < frame.samples; ++i) {
+    const double x = frame.pattern[i].x - 0.5, y = frame.pattern[i].y - 0.5;
+    result.push_back(x * x + y * y);
+  }
+  return result;
+}
 
 /// Threads that share out tasks. Which thread takes which task is chance, and does not matter.
 class Crew {
@@ -83,31 +96,48 @@ class Crew {
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
   const int size = options.tile_size;
-  const std::int64_t columns = (film.width + size - 1) / size, rows = (film.height + size - 1) / size;
-  Crew(options, run).share(columns * rows, 0, 1, [&](std::int64_t i, Worker& worker) {
-    const int x = int(i % columns) * size, y = int(i / columns) * size;
+  const std::int64_t across = (film.width + size - 1) / size, down = (film.height + size - 1) / size;
+  const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
+  const std::vector<double> distances = distances_from_centre(frame);
+  Crew(options, run).share(across * down, 0, 1, [&](std::int64_t i, Worker& worker) {
+    const int x = int(i % across) * size, y = int(i / across) * size;
     worker.pixels.clear();
     list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), worker.pixels);
     worker.sums.assign(worker.pixels.size() * color_channels, 0);
-    kernel.render(frame,
-                  {worker.pixels.data(), std::uint32_t(worker.pixels.size()), 0, frame.samples,
-                   worker.sums.data(), nullptr},
-                  worker.scratch, worker.counts);
+    PixelTask task{worker.pixels.data(),
+                   std::uint32_t(worker.pixels.size()),
+                   0,
+                   frame.samples,
+                   worker.sums.data(),
+                   nullptr};
+    if (film.layers) {
+      worker.layer_sums.assign(worker.pixels.size() * columns, 0);
+      worker.first_hits.resize(worker.pixels.size() * std::size_t(frame.samples));
+      task.layer_sums = worker.layer_sums.data();
+      task.first_hits = worker.first_hits.data();
+    }
+    kernel.render(frame, task, worker.scratch, worker.counts);
     for (std::size_t p = 0; p < worker.pixels.size(); ++p) {
-      const Pixel& pixel = worker.pixels[p];
-      float* to = &film.colors[(std::size_t(pixel.y) * film.width + pixel.x) * color_channels];
+      float* to = film.pixel(worker.pixels[p].x, worker.pixels[p].y);
       for (int c = 0; c < color_channels; ++c)
         to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
+      if (!film.layers) continue;
+      worker.hits.clear();
+      for (std::size_t s = 0; s < distances.size(); ++s)
+        worker.hits.add(worker.first_hits[p * distances.size() + s], distances[s]);
+      film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, to);
     }
   });
   return run;
 }
 
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
-                          const TileOptions& options) {
+                          const TileOptions& options, std::vector<int>* sample_counts) {
   TileRun run;
   const int size = options.tile_size;
   AdaptiveFilm samples(film, settings);
+  const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
+  const std::vector<double> distances = distances_from_centre(frame);
   std::vector<Pixel> wanted;
   for (int y = 0; y < film.height; y += size)
     for (int x = 0; x < film.width; x += size)
@@ -137,10 +167,26 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
       exchange([](const AdaptiveFilm::Pixel& from, int c, double& sum, float& least, float& greatest) {
         sum = from.sum[c], least = from.least[c], greatest = from.greatest[c];
       });
-      kernel.render(
-          frame,
-          {pixels, std::uint32_t(count), first, end, worker.sums.data(), worker.least_and_greatest.data()},
-          worker.scratch, worker.counts);
+      PixelTask task{pixels, std::uint32_t(count), first,
+                     end,    worker.sums.data(),   worker.least_and_greatest.data()};
+      const auto taken = std::size_t(end - first);
+      if (film.layers) {
+        worker.layer_sums.resize(count * columns);
+        worker.first_hits.resize(count * taken);
+        task.layer_sums = worker.layer_sums.data();
+        task.first_hits = worker.first_hits.data();
+        for (std::size_t p = 0; p < count; ++p)
+          std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns,
+                      &worker.layer_sums[p * columns]);
+      }
+      kernel.render(frame, task, worker.scratch, worker.counts);
+      if (film.layers)
+        for (std::size_t p = 0; p < count; ++p) {
+          const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
+          std::copy_n(&worker.layer_sums[p * columns], columns, samples.layer_sums(index));
+          for (std::size_t s = 0; s < taken; ++s)
+            samples.hits(index).add(worker.first_hits[p * taken + s], distances[std::size_t(first) + s]);
+        }
       exchange([&](AdaptiveFilm::Pixel& to, int c, double sum, float least, float greatest) {
         to.sum[c] = sum, to.least[c] = least, to.greatest[c] = greatest;
         to.samples = end;
@@ -153,6 +199,9 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
     progress = progress_then;
   }
   samples.develop(film);
+  if (sample_counts)
+    for (int y = 0; y < film.height; ++y)
+      for (int x = 0; x < film.width; ++x) sample_counts->push_back(samples.at(x, y).samples);
   return run;
 }
 

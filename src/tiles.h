@@ -22,7 +22,8 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
 
 /// The same with samples where the picture needs them (settings.adaptive, which must be set): in several goes
 /// over the film, each over the pixels that the one before has left uncertain.
+///   samples  if not null: how many each pixel got, row by row
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
-                          const TileOptions& options);
+                          const TileOptions& options, std::vector<int>* samples = nullptr);
 
 }  // namespace lambent

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -87,21 +88,9 @@ struct Shorthands {
   std::vector<std::string> set;
 };
 
-CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& shorthands) {
-  CLI::App* command =
-      add_command(program, "render", "Render a scene or a model to a picture",
-                  "  lambent render scene.yaml\n"
-                  "  lambent render bunny.obj -o bunny.png -o bunny.exr --size 800x600\n"
-                  "  lambent render scene.yaml --samples 16 --set lights.key.point.intensity=4");
-  command->add_option("INPUT", render.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
-      ->required()
-      ->type_name("");
-  command
-      ->add_option("-o,--output", render.outputs,
-                   "Picture to write, .png or .exr; may be repeated\n(default: INPUT's name with .png, here)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
-  const auto shorthand = [&](const std::string& key, std::string (*as_yaml)(const std::string&)) {
+/// What may be said of the scene on the command line, of every command that renders.
+void add_scene_options(CLI::App* command, Shorthands& shorthands) {
+  const auto shorthand = [&shorthands](const std::string& key, std::string (*as_yaml)(const std::string&)) {
     return [&shorthands, key, as_yaml](const std::string& text) {
       shorthands.settings.emplace_back(key, as_yaml(text));
     };
@@ -110,7 +99,7 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
       ->add_option_function<std::string>("--size", shorthand("image.size", size_as_yaml),
                                          "Width and height in pixels")
       ->type_name("WxH");
-  const auto samples = [&](const std::string& text) {
+  const auto samples = [&shorthands](const std::string& text) {
     int number = 0;
     if (!read_number(text, number) || number < 1)
       throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
@@ -127,6 +116,24 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
                    "Set anything that the scene file can say:\npath.to.key=value; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& shorthands) {
+  CLI::App* command =
+      add_command(program, "render", "Render a scene or a model to a picture",
+                  "  lambent render scene.yaml\n"
+                  "  lambent render bunny.obj -o bunny.png -o bunny.exr --size 800x600\n"
+                  "  lambent render scene.yaml --samples 16 --set lights.key.point.intensity=4");
+  command->add_option("INPUT", render.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", render.outputs,
+                   "Picture to write, .png or .exr; may be repeated\n(default: INPUT's name with .png, or "
+                   ".exr for\nlayers, here)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  add_scene_options(command, shorthands);
   add_integer(command, "--threads", render.threads, 0,
               "Threads to work with (default 0: one per\nprocessor)");
   add_integer(command, "--tile", render.tile, 1,
@@ -136,6 +143,12 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
                    "Instruction set of the kernels: " + fmt::format("{}", fmt::join(available_isas(), ", ")))
       ->type_name("NAME");
   add_bits(command, render.bits);
+  const auto layers = [&shorthands](std::int64_t) {
+    shorthands.settings.emplace_back("film.layers", "true");
+  };
+  command->add_flag_function(
+      "--layers", layers,
+      "Write to the EXR what the colours are made of,\nterm by term and light by light, too");
   command
       ->add_option("--stats", render.stats,
                    "Write as JSON what went where: rays by kind,\nseconds by stage, bytes by what they "
@@ -203,6 +216,71 @@ CLI::App* add_convert(CLI::App& program, ConvertCommand& convert) {
   return command;
 }
 
+CLI::App* add_explain(CLI::App& program, ExplainCommand& explain, Shorthands& shorthands) {
+  CLI::App* command = add_command(program, "explain", "Derive one pixel: the equation with its numbers",
+                                  "  lambent explain scene.yaml --pixel 320,180\n"
+                                  "  lambent explain scene.yaml --pixel 320,180 --model blinn_phong\n"
+                                  "  lambent explain scene.yaml --pixel 320,180 --format latex -o pixel.tex");
+  command->add_option("INPUT", explain.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
+      ->required()
+      ->type_name("");
+  const auto pixel = [&explain](const std::string& text) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos || !read_number(std::string_view(text).substr(0, comma), explain.x) ||
+        !read_number(std::string_view(text).substr(comma + 1), explain.y))
+      throw usage_error(fmt::format("--pixel wants x,y from the top left corner, from 0, not '{}'", text),
+                        "for example --pixel 320,180");
+  };
+  command->add_option_function<std::string>("--pixel", pixel, "Which pixel: from the top left corner, from 0")
+      ->required()
+      ->type_name("X,Y");
+  add_integer(command, "--sample", explain.sample, 0,
+              "Which of its samples (default: the nearest to\nits centre; with JSON all)");
+  const auto format = [&explain](const std::string& text) {
+    static const std::vector<std::string> known{"text", "json", "mathml", "latex"};
+    if (std::find(known.begin(), known.end(), text) == known.end())
+      throw usage_error(fmt::format("unknown format '{}'", text), [&] {
+        const std::string hint = did_you_mean(text, known);
+        return hint.empty() ? fmt::format("known are {}", fmt::join(known, ", ")) : hint;
+      }());
+    explain.format = text;
+  };
+  command->add_option_function<std::string>("--format", format, "text (default), json, mathml or latex")
+      ->type_name("NAME");
+  command->add_flag_callback(
+      "--json", [&explain] { explain.format = "json"; }, "The same as --format json");
+  command->add_flag("--trace", explain.trace, "Every ray that was asked for the pixel, in order");
+  command->add_option("-o,--output", explain.output, "Write it to a file")->type_name("FILE");
+  add_scene_options(command, shorthands);
+  return command;
+}
+
+CLI::App* add_relight(CLI::App& program, RelightCommand& relight) {
+  CLI::App* command =
+      add_command(program, "relight", "Make another picture of layers: other lights",
+                  "  lambent render scene.yaml --layers -o layers.exr\n"
+                  "  lambent relight layers.exr --light key=0.5 --light 'fill=#ffd0a0' -o out.png");
+  command->add_option("INPUT", relight.input, "An EXR that 'lambent render --layers' has made")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", relight.outputs, "Picture to write, .png or .exr; may be repeated")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  const auto factors = [&](const char* name, std::vector<std::string>& values, const char* description) {
+    command->add_option(name, values, description)->type_name("NAME=FACTOR")->allow_extra_args(false);
+  };
+  factors("--light", relight.lights, "Multiply a light's colour by a number or a\ncolour; may be repeated");
+  factors("--term", relight.terms,
+          "Likewise all that comes by one term: ambient,\ndiffuse, specular, emission, background,\n"
+          "reflection, refraction");
+  factors("--material", relight.materials,
+          "Likewise a material's term, as\nNAME.ambient, NAME.diffuse, NAME.specular");
+  add_bits(command, relight.bits);
+  command->add_flag("-q,--quiet", relight.quiet, "Say nothing but errors");
+  return command;
+}
+
 // ---- what is wrong
 // ----------------------------------------------------------------------------------------------------
 
@@ -264,6 +342,8 @@ Command parse_command_line(int argc, const char* const* argv) {
   ListCommand list;
   DiffCommand diff;
   ConvertCommand convert;
+  ExplainCommand explain;
+  RelightCommand relight;
 
   CLI::App program("Lambent renders scenes and models with the classical lighting equation.", "lambent");
   program.set_version_flag("--version", fmt::format("lambent {}", version()), "Print the version");
@@ -279,6 +359,7 @@ Command parse_command_line(int argc, const char* const* argv) {
       "  lambent render bunny.obj              a picture of a model, lit and framed\n"
       "  lambent convert bunny.obj mine.yaml   a scene file to start from\n"
       "  lambent render mine.yaml -o mine.png --samples 16\n"
+      "  lambent explain mine.yaml --pixel 320,180   why that pixel looks so\n"
       "  lambent list models                   the equations there are\n"
       "'lambent COMMAND --help' says more about one command.\n"
       "Exit codes: 0 done, 1 failed, 2 bad input or usage.");
@@ -287,7 +368,9 @@ Command parse_command_line(int argc, const char* const* argv) {
   const CLI::App* is_info = add_info(program, info);
   const CLI::App* is_list = add_list(program, list);
   const CLI::App* is_diff = add_diff(program, diff);
-  add_convert(program, convert);
+  const CLI::App* is_convert = add_convert(program, convert);
+  const CLI::App* is_explain = add_explain(program, explain, shorthands);
+  add_relight(program, relight);
 
   try {
     program.parse(argc, argv);
@@ -300,10 +383,18 @@ Command parse_command_line(int argc, const char* const* argv) {
     throw refused(program, error);
   }
 
+  const auto settings = [&] {
+    Settings all = shorthands.settings;
+    for (const std::string& setting : shorthands.set) all.push_back(split_setting(setting));
+    return all;
+  };
   if (*is_render) {
-    render.set = shorthands.settings;
-    for (const std::string& setting : shorthands.set) render.set.push_back(split_setting(setting));
+    render.set = settings();
     return render;
+  }
+  if (*is_explain) {
+    explain.set = settings();
+    return explain;
   }
   if (*is_check) return check;
   if (*is_info) return info;
@@ -313,7 +404,8 @@ Command parse_command_line(int argc, const char* const* argv) {
     return list;
   }
   if (*is_diff) return diff;
-  return convert;
+  if (*is_convert) return convert;
+  return relight;
 }
 
 }  // namespace lambent::app

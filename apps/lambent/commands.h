@@ -55,13 +55,31 @@ struct ConvertCommand {
   int bits = 8;
 };
 
+struct ExplainCommand {
+  std::string input;
+  int x = -1, y = -1;
+  int sample = -1;  ///< -1: the central one, or in JSON all.
+  std::string format = "text";
+  std::string output;  ///< Empty: standard output.
+  bool trace = false;
+  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
+};
+
+struct RelightCommand {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::vector<std::string> lights, terms, materials;  ///< name=factor
+  int bits = 8;
+  bool quiet = false;
+};
+
 /// Nothing to compute: the text that --help or --version asks for.
 struct ShowText {
   std::string text;
 };
 
 using Command = std::variant<ShowText, RenderCommand, CheckCommand, InfoCommand, ListCommand, DiffCommand,
-                             ConvertCommand>;
+                             ConvertCommand, ExplainCommand, RelightCommand>;
 
 /// Throws InputError where the command line is wrong.
 Command parse_command_line(int argc, const char* const* argv);
@@ -74,5 +92,7 @@ ExitCode run(const InfoCommand& command);
 ExitCode run(const ListCommand& command);
 ExitCode run(const DiffCommand& command);
 ExitCode run(const ConvertCommand& command);
+ExitCode run(const ExplainCommand& command);
+ExitCode run(const RelightCommand& command);
 
 }  // namespace lambent::app

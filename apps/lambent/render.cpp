@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string default_output(const std::string& input) {
-  return std::filesystem::path(input).filename().replace_extension(".png").string();
+std::string default_output(const std::string& input, const char* ending) {
+  return std::filesystem::path(input).filename().replace_extension(ending).string();
 }
 
 std::string stats_as_json(const Stats& stats) {
@@ -78,14 +79,20 @@ std::string joined(const std::vector<std::string>& names) {
 
 ExitCode run(const RenderCommand& command) {
   // Whatever can be known to fail is looked at before the work, not after it.
-  const std::vector<std::string> outputs =
-      command.outputs.empty() ? std::vector<std::string>{default_output(command.input)} : command.outputs;
-  for (const std::string& output : outputs) check_image_output(output);
+  for (const std::string& output : command.outputs) check_image_output(output);
   if (!command.stats.empty() && command.stats != "-") check_output(command.stats);
 
   const Stopwatch total, parsing;
   const ScenePtr scene = load_scene(command.input, {command.set});
   const double parse_seconds = parsing.seconds();
+  const std::vector<std::string> outputs =
+      command.outputs.empty()
+          ? std::vector{default_output(command.input, wants_layers(scene) ? ".exr" : ".png")}
+          : command.outputs;
+  if (command.outputs.empty()) check_image_output(outputs.front());
+  if (wants_layers(scene) && std::none_of(outputs.begin(), outputs.end(),
+                                          [](const std::string& output) { return ending(output) == ".exr"; }))
+    throw usage_error("layers need an EXR; a PNG holds colours alone", "for example -o layers.exr");
   if (!command.quiet) report(warnings(scene), most_warnings);
 
   const Interruptible interruptible;

@@ -49,6 +49,9 @@ std::string scene_text_of_model(const std::string& path);
 /// What was odd about the input, without being wrong.
 const std::vector<Diagnostic>& warnings(const ScenePtr& scene);
 
+/// Whether the scene asks for layers, which only an EXR can hold.
+bool wants_layers(const ScenePtr& scene);
+
 /// What is in a scene.
 struct SceneSummary {
   struct Item {
@@ -122,7 +125,8 @@ struct RenderOptions {
 };
 
 struct RenderResult {
-  Image image;         ///< R, G, B, linear. Incomplete where `cancelled`.
+  Image image;  ///< R, G, B, linear; and the layers where the scene's film.layers says so (docs/layers.md).
+                ///< Incomplete where `cancelled`.
   Metadata metadata;   ///< The settings that made it; nothing that changes from run to run.
   WriteOptions write;  ///< How the scene wants it written.
   Stats stats;
@@ -153,8 +157,8 @@ struct Entry {
   std::vector<ParameterInfo> parameters;
 };
 struct Topic {
-  std::string
-      name;  ///< "models", "lights", "shapes", "materials", "camera", "image", "illumination", "integrators".
+  std::string name;  ///< "models", "lights", "shapes", "materials", "camera", "image", "film",
+                     ///< "illumination", "integrators".
   std::string title;
   std::vector<Entry> entries;
 };

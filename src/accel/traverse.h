@@ -445,6 +445,14 @@ inline std::uint32_t material_of(const WorldView& world, std::int32_t instance, 
   return world.objects[object].materials[g.material_of_primitive ? g.material_of_primitive[primitive] : 0];
 }
 
+/// The scene's object of a primitive.
+inline std::uint32_t object_of(const WorldView& world, std::int32_t instance, std::int32_t geometry,
+                               std::int32_t primitive) {
+  const Geometry& g = world.geometries[geometry];
+  if (instance >= 0) return world.instances[instance].object;
+  return g.object_of_primitive ? g.object_of_primitive[primitive] : g.object;
+}
+
 /// For `count` packets of rays where something opaque stands in the way before t_far. With `all_opaque`,
 /// everything counts as opaque. Clears `open` (at first the lanes that ask) where the way is blocked.
 template <class F>

@@ -214,6 +214,7 @@ class Builder {
     g.flipped = determinant(t) < 0;
     g.vertices = mesh.vertices.data();
     g.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
+    g.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
     if (is_identity(t)) return;
     std::vector<Vec3<float>> points;
     points.reserve(mesh.vertices.size());

@@ -34,6 +34,7 @@ struct Geometry {
   const Vec3<float>* vertices = nullptr;
   const std::array<std::uint32_t, 3>* triangles = nullptr;
   const Vec3<float>* normals = nullptr;  ///< Null, or one for each vertex.
+  const Vec2<float>* uvs = nullptr;      ///< Likewise.
   const Sphere* spheres = nullptr;
   const PlacedCone* cones = nullptr;
   const Disc* discs = nullptr;                           ///< Unit normals.

@@ -10,7 +10,10 @@ AdaptiveFilm::AdaptiveFilm(const Film& film, const ImageSettings& settings)
       height_(film.height),
       settings_(settings.adaptive.value_or(AdaptiveSamples{})),
       encoded_(settings.encoding == Encoding::srgb),
-      pixels_(std::size_t(film.width) * film.height) {
+      pixels_(std::size_t(film.width) * film.height),
+      columns_(film.layers ? std::size_t(film.layers->plan().count()) * color_channels : 0),
+      layer_sums_(pixels_.size() * columns_),
+      hits_(film.layers ? pixels_.size() : 0) {
   for (Pixel& pixel : pixels_) {
     std::fill_n(pixel.least, color_channels, std::numeric_limits<float>::infinity());
     std::fill_n(pixel.greatest, color_channels, -std::numeric_limits<float>::infinity());
@@ -45,9 +48,12 @@ bool AdaptiveFilm::needs_more(int x, int y) const {
 }
 
 void AdaptiveFilm::develop(Film& film) const {
-  for (std::size_t p = 0; p < pixels_.size(); ++p)
-    for (int c = 0; c < color_channels; ++c)
-      film.colors[p * color_channels + c] = float(pixels_[p].sum[c] / std::max(1, pixels_[p].samples));
+  for (std::size_t p = 0; p < pixels_.size(); ++p) {
+    float* to = &film.values[p * std::size_t(film.channels)];
+    const int samples = std::max(1, pixels_[p].samples);
+    for (int c = 0; c < color_channels; ++c) to[c] = float(pixels_[p].sum[c] / samples);
+    if (film.layers) film.layers->write(layer_sums(p), samples, hits_[p], to);
+  }
 }
 
 }  // namespace lambent

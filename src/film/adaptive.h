@@ -18,7 +18,12 @@ class AdaptiveFilm {
     float least[color_channels], greatest[color_channels];
     int samples = 0;
   };
-  Pixel& at(int x, int y) { return pixels_[std::size_t(y) * width_ + x]; }
+  Pixel& at(int x, int y) { return pixels_[index(x, y)]; }
+  std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width_) + std::size_t(x); }
+  /// Where the film has layers: the sums of a pixel's, and what its samples met.
+  double* layer_sums(std::size_t pixel) { return &layer_sums_[pixel * columns_]; }
+  const double* layer_sums(std::size_t pixel) const { return &layer_sums_[pixel * columns_]; }
+  PixelHits& hits(std::size_t pixel) { return hits_[pixel]; }
 
   /// Whether n samples of this pixel, which it has, may be off by more than the settings' error: an edge of
   /// height D is known to about D / n^(3/4) by n well-spread samples, and D is looked for in the pixel
@@ -36,6 +41,9 @@ class AdaptiveFilm {
   AdaptiveSamples settings_;
   bool encoded_;
   std::vector<Pixel> pixels_;
+  std::size_t columns_;  ///< Of layers.
+  std::vector<double> layer_sums_;
+  std::vector<PixelHits> hits_;
 };
 
 }  // namespace lambent

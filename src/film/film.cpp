@@ -4,28 +4,31 @@
 
 namespace lambent {
 
-Film::Film(const ImageSettings& settings)
+Film::Film(const ImageSettings& settings, const LayerBook* book)
     : width(settings.width + (settings.pattern == Pattern::corners)),
       height(settings.height + (settings.pattern == Pattern::corners)),
-      colors(std::size_t(width) * height * color_channels) {}
+      layers(book),
+      channels(book ? int(book->channels().size()) : color_channels),
+      values(std::size_t(width) * height * channels) {}
 
 Image develop(Film film, const ImageSettings& settings) {
   Image image;
   image.width = settings.width;
   image.height = settings.height;
+  if (film.layers) image.channels = film.layers->channels();
   if (settings.pattern != Pattern::corners) {
-    image.data = std::move(film.colors);
+    image.data = std::move(film.values);
     return image;
   }
-  image.data.resize(std::size_t(image.width) * image.height * color_channels);
-  const std::size_t row = std::size_t(image.width + 1) * color_channels;
+  image.data.resize(std::size_t(image.width) * image.height * film.channels);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      const float* corner = &film.colors[y * row + std::size_t(x) * color_channels];
+      const float* const corners[] = {film.pixel(x, y), film.pixel(x + 1, y), film.pixel(x, y + 1),
+                                      film.pixel(x + 1, y + 1)};
+      float* pixel = image.pixel(x, y);
       for (int c = 0; c < color_channels; ++c)
-        image.pixel(x, y)[c] = float((double(corner[c]) + corner[c + color_channels] + corner[c + row] +
-                                      corner[c + row + color_channels]) /
-                                     4);
+        pixel[c] = float((double(corners[0][c]) + corners[1][c] + corners[2][c] + corners[3][c]) / 4);
+      if (film.layers) film.layers->merge(corners, pixel);
     }
   return image;
 }

@@ -11,8 +11,9 @@
 
 namespace lambent {
 
-/// Says which term is being added to the sum, to whoever wants to know.
-enum class Term { ambient, diffuse, specular };
+/// Says which term is being added to the sum, to whoever wants to know. Emission is no term of the equation;
+/// it is added to what the equation gives.
+enum class Term { ambient, diffuse, specular, emission };
 
 struct NoObserver {
   template <class C> void operator()(Term, int /*light*/, const C&) const {}

@@ -5,6 +5,8 @@
 #include <cstdint>
 
 #include "accel/world.h"
+#include "film/layers.h"
+#include "illumination/equation.h"
 #include "illumination/models.h"
 
 namespace lambent {
@@ -49,9 +51,66 @@ struct RayListener {
   void (*asked)(void* self, const AskedRay& ray);
 };
 
+/// What a kernel tells of its work to whoever wants to explain a picture: every ray, what it met, each light
+/// there, each summand of the equation, and each colour as it is added to its sample. Rays have numbers, from
+/// 0 on in each call of a kernel.
+struct SeenRay {
+  std::uint32_t ray, parent;  ///< The parent of a ray from the eye: no_ray.
+  Way way;                    ///< How it left its parent; direct: from the eye.
+  bool total;           ///< A mirror ray that takes the refracted one's share with it: total reflection.
+  std::uint32_t pixel;  ///< Of the task; and
+  int sample;           ///< which of the pattern's samples.
+  Vec3<double> o, d;
+  Rgb factor;  ///< What the surface gives it: reflect or transmit. White for rays from the eye.
+  Rgb weight;  ///< What its colour counts in its sample: the factors on the way.
+};
+inline constexpr std::uint32_t no_ray = ~std::uint32_t{0};
+struct SeenHit {
+  std::uint32_t ray;
+  std::int32_t instance, geometry, primitive;
+  std::uint32_t material;
+  Vec3<double> P, N, G, V;
+  Vec3<double> start;  ///< Where its shadow rays begin.
+  double t, R;         ///< The ray's length, and the way from the eye.
+  bool outside;        ///< Whether the ray came from outside.
+  Rgb Ia;              ///< The ambient light, faded.
+};
+struct SeenLight {
+  std::uint32_t ray;
+  int light;
+  bool open;   ///< False: behind the surface, dark this way, or blocked.
+  bool asked;  ///< Whether a shadow ray was thrown.
+  Vec3<double> L;
+  double r;
+  Rgb I;         ///< Il, before attenuation.
+  double faded;  ///< The attenuation.
+  Rgb share;     ///< What transmitting surfaces leave of it.
+  Rgb arriving;  ///< All of these multiplied: what the model is handed.
+};
+struct SeenTerm {
+  std::uint32_t ray;
+  Term term;
+  int light;  ///< -1: of no light.
+  Rgb color;
+};
+struct SeenColor {
+  std::uint32_t ray;
+  Rgb color;  ///< Of the ray, before its weight; of a ray that met nothing the background.
+};
+struct Witness {
+  void* self;
+  void (*ray)(void* self, const SeenRay&);
+  void (*hit)(void* self, const SeenHit&);
+  void (*light)(void* self, const SeenLight&);
+  void (*term)(void* self, const SeenTerm&);
+  void (*color)(void* self, const SeenColor&);
+};
+
 struct Frame {
   WorldView world;
   const RayListener* listener = nullptr;  ///< Null: nobody.
+  const Witness* witness = nullptr;       ///< Likewise.
+  LayerPlan layers;
   bool any_transmits;
   CameraRecord camera;
   int width, height;            ///< Of the picture, in pixels.
@@ -80,6 +139,9 @@ struct PixelTask {
   double* sums;  ///< color_channels for each pixel: the samples' colours are added to it, in their order.
   float*
       least_and_greatest;  ///< Null, or for each pixel the least of each channel so far, then the greatest.
+  double* layer_sums =
+      nullptr;  ///< Null, or frame.layers.count() times color_channels for each pixel, likewise.
+  FirstHit* first_hits = nullptr;  ///< Null, or for each pixel one for each of the samples asked for.
 };
 
 /// Columns of equal length that grow together; a struct of arrays says which they are by `columns(f)`. They
@@ -98,6 +160,8 @@ struct RayQueue {
   Column<float> qx, qy, qz;               ///< Where the query starts: off the surface.
   Column<double> weight[color_channels];  ///< What the ray's colour counts in its sample.
   Column<std::uint32_t> sample;           ///< Which sample of the batch.
+  Column<Way> way;                        ///< How light came that goes along it. Set where somebody looks,
+  Column<std::uint32_t> number;           ///< as is the ray's number.
   Column<float> t;                        ///< Found: distance,
   Column<std::int32_t> instance, geometry, primitive;  ///< and which primitive; geometry -1: none.
   Column<std::uint32_t> material;                      ///< Of that primitive,
@@ -107,7 +171,8 @@ struct RayQueue {
   template <class F> void columns(F f) {
     f(ox), f(oy), f(oz), f(dx), f(dy), f(dz), f(R), f(qx), f(qy), f(qz);
     for (auto& w : weight) f(w);
-    f(sample), f(t), f(instance), f(geometry), f(primitive), f(material), f(group), f(order);
+    f(sample), f(way), f(number), f(t), f(instance), f(geometry), f(primitive), f(material), f(group),
+        f(order);
   }
 };
 
@@ -125,6 +190,8 @@ struct ColorQueue {
 struct Scratch {
   RayQueue rays, next_rays;
   ColorQueue samples;
+  Column<double> layers;  ///< Layer by layer, channel by channel, a batch of samples.
+  std::uint32_t layer_columns = 0;
   Column<std::uint32_t> reaching;  ///< The lights that may reach some of the hits at hand.
   Column<std::uint32_t>
       open;  ///< For each of these and each packet of a block a bit for each lane that it reaches.
@@ -136,6 +203,7 @@ struct Scratch {
   static void grow(RayQueue& queue, std::uint32_t capacity);
   static void grow(ColorQueue& queue, std::uint32_t capacity);
   static void grow(Column<std::uint32_t>& column, std::uint32_t capacity);
+  static void grow(Column<double>& column, std::uint32_t capacity);
 };
 
 /// The Whitted integrator, compiled for one instruction set.

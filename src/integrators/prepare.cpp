@@ -87,6 +87,14 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   for (const Material& material : scene.materials)
     prepared->materials.push_back(material_record(material, scene.illumination.model));
   frame.materials = prepared->materials.data();
+  frame.layers.lights = frame.light_count;
+  if (scene.whitted.max_depth > 1)
+    for (const Object& object : scene.objects)
+      for (std::uint32_t m : object.materials) {
+        // A refracted ray may be reflected totally.
+        frame.layers.refraction |= prepared->materials[m].transmits;
+        frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
+      }
   for (int model = 0; model < model_count; ++model)
     frame.fading[model] = {
         scene.illumination.attenuation.value_or(info(ModelId(model)).attenuation),

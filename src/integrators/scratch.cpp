@@ -36,9 +36,11 @@ void Scratch::grow(ColorQueue& queue, std::uint32_t capacity) { grow_columns(que
 void Scratch::grow(Column<std::uint32_t>& column, std::uint32_t capacity) {
   grow_column(column, 0, capacity);
 }
+void Scratch::grow(Column<double>& column, std::uint32_t capacity) { grow_column(column, 0, capacity); }
 
 Scratch::~Scratch() {
   release(rays), release(next_rays), release(samples);
+  std::free(layers.data);
   std::free(open.data);
   std::free(reaching.data);
 }

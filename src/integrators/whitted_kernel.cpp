@@ -41,8 +41,10 @@ constexpr int group_count = kinds * 2 * model_count;
 constexpr std::uint8_t no_group = 255;
 static_assert(group_count < no_group);
 
-/// A task on its way through the stages.
-struct Work {
+/// A task on its way through the stages. `Seen`: somebody wants to know more than the colours: layers, what
+/// eye rays met, or every number (frame.h, Witness). All that is seen is made of the very numbers that the
+/// picture is made of.
+template <bool Seen> struct Work {
   const Frame& frame;
   const PixelTask& task;
   Scratch& scratch;
@@ -56,11 +58,13 @@ struct Work {
       Scratch::grow(scratch.open, std::uint32_t(frame.light_count) * beam);
       Scratch::grow(scratch.reaching, std::uint32_t(frame.light_count));
     }
+    if constexpr (Seen) grow_layers();
     light_count = frame.light_count;
     for (int l = 0; l < light_count; ++l) scratch.reaching[l] = std::uint32_t(l);
     const std::uint64_t samples = std::uint64_t(task.count) * samples_per_pixel();
     for (std::uint64_t first = 0; first < samples; first += batch_size) {
       const auto count = std::uint32_t(min<std::uint64_t>(batch_size, samples - first));
+      first_of_batch = first;
       throw_eye_rays(first, count);
       for (depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
@@ -80,6 +84,7 @@ struct Work {
   }
 
   int depth = 1;  ///< Of the rays at hand; the ray from the eye is 1.
+  std::uint64_t first_of_batch = 0;
 
   int samples_per_pixel() const { return task.end_sample - task.first_sample; }
 
@@ -117,6 +122,14 @@ struct Work {
       }
     }
     counts.eye += count;
+    if constexpr (Seen) {
+      clear_layers(count);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        rays.way[i] = Way::direct;
+        if (!frame.witness) continue;
+        tell_ray(rays, i, no_ray, Way::direct, false, grey(1.0));
+      }
+    }
   }
 
   // ---- where rays end
@@ -187,6 +200,7 @@ struct Work {
       if (rays.geometry[i] < 0) {
         rays.group[i] = no_group;
         add(i, frame.background);
+        if constexpr (Seen) add_background(i);
         continue;
       }
       rays.material[i] = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
@@ -262,6 +276,7 @@ struct Work {
     Vec3<F> P, N, V;
     Vec3<F> G;            ///< Geometric normal; as N on V's side.
     F R;                  ///< Distance from the eye, over all bounces.
+    F t;                  ///< The ray's length; only where somebody looks.
     Vec3<F> lifted;       ///< P, lifted to the smooth surface that it stands for.
     Vec3<F> front, back;  ///< Where rays start that leave on V's side, and those that go through.
     Truth outside;        ///< Whether V is on the outside.
@@ -283,6 +298,9 @@ struct Work {
       for (; first < last && block.count < beam; first += lanes, ++block.count) {
         block.at[block.count] = lanes_from(first, last);
         block.hits[block.count] = look(block.at[block.count]);
+        if constexpr (Seen) {
+          if (depth == 1 && task.first_hits) note_first_hits(block.at[block.count], block.hits[block.count]);
+        }
       }
       for (int i = 0; i < light_count; ++i) look_at_light(i, block);
       for (int i = 0; i < block.count; ++i) {
@@ -326,6 +344,7 @@ struct Work {
     hits.front = hits.lifted + s.offset * hits.G;
     hits.back = s.P - s.offset * hits.G;
     hits.R = at.load(rays.R) + s.t;
+    if constexpr (Seen) hits.t = s.t;
     return hits;
   }
 
@@ -363,6 +382,13 @@ struct Work {
     for (int c = 0; c < color_channels; ++c)
       Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, hits.R, minimum);
 
+    if constexpr (Seen) {
+      if (frame.witness) {
+        tell_hits(at, hits, Ia);
+        for (int number = 0; number < light_count; ++number)
+          tell_light(number, packet, at, hits, fading.attenuation);
+      }
+    }
     const auto arriving = [&](int number) -> Arriving<F, C> {
       const auto l = int(scratch.reaching[number]);
       const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
@@ -371,8 +397,21 @@ struct Work {
       return {light.L, share_that_passes(open, hits, light) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };
-    const C I = illuminate<Model>(s, Ia, light_count, arriving);
-    add(at, colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; }) + I);
+    const C emission = colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    if constexpr (Seen) {
+      see_term(at, LayerPlan::emission, Term::emission, -1, emission);
+      const C I = illuminate<Model>(s, Ia, light_count, arriving, [&](Term term, int number, const C& color) {
+        const int l = number < 0 ? -1 : int(scratch.reaching[number]);
+        const int layer = term == Term::ambient   ? int(LayerPlan::ambient)
+                          : term == Term::diffuse ? LayerPlan::diffuse(l)
+                                                  : LayerPlan::specular(l);
+        see_term(at, layer, term, l, color);
+      });
+      add(at, emission + I);
+      if (frame.witness) tell_colors(at, emission + I);
+    } else {
+      add(at, emission + illuminate<Model>(s, Ia, light_count, arriving));
+    }
   }
 
   LightSample<F, C> sample_light(int l, const Vec3<F>& P) const {
@@ -486,13 +525,16 @@ struct Work {
 
   /// Adds the colours of a packet's rays to their samples.
   void add(const Lanes& at, const C& color) {
+    add(at, color, [&](int c) { return scratch.samples.color[c].data; });
+  }
+  template <class Columns> void add(const Lanes& at, const C& color, const Columns& columns) {
     const RayQueue& rays = scratch.rays;
     const std::uint32_t* sample = &rays.sample[at.ray[0]];
     bool samples_adjacent = at.adjacent;
     if (at.adjacent)
       for (int k = 1; k < lanes; ++k) samples_adjacent &= sample[k] == sample[0] + std::uint32_t(k);
     for (int c = 0; c < color_channels; ++c) {
-      const Column<double>& to = scratch.samples.color[c];
+      double* const to = columns(c);
       const F weighted = at.load(rays.weight[c]) * color[c];
       if (samples_adjacent) {
         (F::load(&to[sample[0]]) + weighted).store(&to[sample[0]]);
@@ -523,7 +565,7 @@ struct Work {
                                                     return m.reflects || m.transmits ? 1.0 : 0.0;
                                                   }) > F(0)));
     Refraction bent{};
-    Truth refracted(false);
+    Truth refracted(false), total(false);
     if (transmits) {
       const F ior = of_materials(hits, [](const MaterialRecord& m) { return m.ior; });
       bent = refract(hits, select(hits.outside, F(1) / ior, ior));
@@ -531,7 +573,7 @@ struct Work {
       refracted = both(asked, bent.passes);
       // Total internal reflection: what cannot leave stays, and goes with the mirror ray. It counts as asked
       // for, though there is no ray: so does Haines count in the SPD's tables.
-      const Truth total = both(asked, Truth(!bent.passes));
+      total = both(asked, Truth(!bent.passes));
       mirrored = select(total, mirrored + through, mirrored);
       counts.refraction += std::uint64_t(__builtin_popcount(lane_bits(total)));
     }
@@ -563,6 +605,16 @@ struct Work {
       rays.R[i] = R[k];
       for (int c = 0; c < color_channels; ++c) rays.weight[c][i] = leaving.weight[c][k];
       rays.sample[i] = scratch.rays.sample[at.ray[k]];
+      if constexpr (Seen) {
+        const Way way = &leaving == &mirror_rays ? Way::reflection : Way::refraction;
+        const Way so_far = scratch.rays.way[at.ray[k]];
+        rays.way[i] = so_far == Way::direct ? way : so_far;
+        if (frame.witness) {
+          const C& factor = way == Way::reflection ? mirrored : through;
+          tell_ray(rays, i, scratch.rays.number[at.ray[k]], way,
+                   way == Way::reflection && (lane_bits(total) >> k & 1), lane_color(factor, k));
+        }
+      }
     };
     for (int k = 0; k < at.count; ++k) {
       if (mirror_bits >> k & 1) push(mirror_rays, k);
@@ -603,6 +655,147 @@ struct Work {
     return {select(through_N, d, d_G), either(through_N, through_G)};
   }
 
+  // ---- for those who look closer
+
+  std::uint32_t next_number = 0;  ///< Of the rays.
+
+  double* layer_column(int layer, int channel) const {
+    return &scratch.layers[std::size_t(layer * color_channels + channel) * layer_stride];
+  }
+  // So that the columns do not all fall into the same lines of the cache.
+  static constexpr std::size_t layer_stride = batch_size + 8 * lanes;
+
+  void grow_layers() {
+    if (!task.layer_sums) return;
+    const auto columns = std::uint32_t(frame.layers.count() * color_channels);
+    if (scratch.layer_columns >= columns) return;
+    Scratch::grow(scratch.layers, std::uint32_t(columns * layer_stride));
+    scratch.layer_columns = columns;
+  }
+  void clear_layers(std::uint32_t count) {
+    if (task.first_hits)
+      for (std::uint32_t i = 0; i < count; ++i) task.first_hits[first_of_batch + i] = {};
+    if (!task.layer_sums) return;
+    for (int layer = 0; layer < frame.layers.count(); ++layer)
+      for (int c = 0; c < color_channels; ++c) {
+        double* column = layer_column(layer, c);
+        for (std::uint32_t i = 0; i < count; ++i) column[i] = 0;
+      }
+  }
+
+  /// Tells of a summand, and adds it to its layer: `layer` counts from the first of the ray's way.
+  void see_term(const Lanes& at, int layer, Term term, int light, const C& color) {
+    if (frame.witness)
+      for (int k = 0; k < at.count; ++k)
+        frame.witness->term(frame.witness->self,
+                            {scratch.rays.number[at.ray[k]], term, light, lane_color(color, k)});
+    if (!task.layer_sums || all(is_black(color))) return;
+    const RayQueue& rays = scratch.rays;
+    if (depth == 1) return add(at, color, [&](int c) { return layer_column(layer, c); });
+    for (int k = 0; k < at.count; ++k)
+      add_to_layer(at.ray[k], frame.layers.first_of(rays.way[at.ray[k]]) + layer, lane_color(color, k));
+  }
+  void add_to_layer(std::uint32_t ray, int layer, const Rgb& color) {
+    const std::uint32_t sample = scratch.rays.sample[ray];
+    for (int c = 0; c < color_channels; ++c)
+      layer_column(layer, c)[sample] += scratch.rays.weight[c][ray] * color[c];
+  }
+  void add_background(std::uint32_t ray) {
+    if (task.layer_sums)
+      add_to_layer(ray, frame.layers.first_of(scratch.rays.way[ray]) + LayerPlan::background,
+                   frame.background);
+    if (frame.witness)
+      frame.witness->color(frame.witness->self, {scratch.rays.number[ray], frame.background});
+  }
+
+  static Rgb lane_color(const C& color, int k) {
+    Rgb result;
+    for (int c = 0; c < color_channels; ++c) result[c] = lane(color[c], k);
+    return result;
+  }
+  static Vec3<double> lane_vector(const Vec3<F>& v, int k) {
+    return {lane(v.x, k), lane(v.y, k), lane(v.z, k)};
+  }
+
+  /// Numbers ray i of the queue, and tells of it.
+  void tell_ray(RayQueue& rays, std::uint32_t i, std::uint32_t parent, Way way, bool total,
+                const Rgb& factor) {
+    rays.number[i] = next_number++;
+    const std::uint64_t sample = first_of_batch + rays.sample[i];
+    SeenRay seen{rays.number[i],
+                 parent,
+                 way,
+                 total,
+                 std::uint32_t(sample / samples_per_pixel()),
+                 task.first_sample + int(sample % samples_per_pixel()),
+                 {rays.ox[i], rays.oy[i], rays.oz[i]},
+                 {rays.dx[i], rays.dy[i], rays.dz[i]},
+                 factor,
+                 {}};
+    for (int c = 0; c < color_channels; ++c) seen.weight[c] = rays.weight[c][i];
+    frame.witness->ray(frame.witness->self, seen);
+  }
+  void tell_hits(const Lanes& at, const Hits& hits, const C& Ia) const {
+    const RayQueue& rays = scratch.rays;
+    for (int k = 0; k < at.count; ++k) {
+      const std::uint32_t ray = at.ray[k];
+      frame.witness->hit(
+          frame.witness->self,
+          {rays.number[ray], rays.instance[ray], rays.geometry[ray], rays.primitive[ray], hits.material[k],
+           lane_vector(hits.P, k), lane_vector(hits.N, k), lane_vector(hits.G, k), lane_vector(hits.V, k),
+           lane_vector(hits.front, k), lane(hits.t, k), lane(hits.R, k),
+           bool(lane_bits(hits.outside) >> k & 1), lane_color(Ia, k)});
+    }
+  }
+  /// What `arriving` in shade() makes of a light, number by number.
+  void tell_light(int number, int packet, const Lanes& at, const Hits& hits,
+                  const Attenuation& attenuation) const {
+    const auto l = int(scratch.reaching[number]);
+    const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
+    const auto light = sample_light(l, hits.P);
+    const F faded = attenuate(attenuation, light.r, F(frame.minimum_distance));
+    const C share = share_that_passes(open, hits, light), arriving = share * (faded * light.I);
+    const std::uint32_t asked =
+        lane_bits(both(Truth(dot(hits.N, light.L) > F(0)), Truth(!is_black(light.I))));
+    for (int k = 0; k < at.count; ++k)
+      frame.witness->light(
+          frame.witness->self,
+          {scratch.rays.number[at.ray[k]], l, bool(open >> k & 1), frame.whitted.shadows && (asked >> k & 1),
+           lane_vector(light.L, k), lane(light.r, k), lane_color(light.I, k), lane(faded, k),
+           lane_color(share, k), lane_color(arriving, k)});
+  }
+  void tell_colors(const Lanes& at, const C& color) const {
+    for (int k = 0; k < at.count; ++k)
+      frame.witness->color(frame.witness->self, {scratch.rays.number[at.ray[k]], lane_color(color, k)});
+  }
+
+  void add_layers_to_pixel(std::uint32_t pixel, std::uint32_t sample) const {
+    const int columns = frame.layers.count() * color_channels;
+    double* sums = task.layer_sums + std::size_t(pixel) * std::size_t(columns);
+    for (int c = 0; c < columns; ++c) sums[c] += scratch.layers[std::size_t(c) * layer_stride + sample];
+  }
+
+  void note_first_hits(const Lanes& at, const Hits& hits) const {
+    const RayQueue& rays = scratch.rays;
+    const C albedo = colors_of_materials(hits, [](const MaterialRecord& m) { return m.diffuse; });
+    for (int k = 0; k < at.count; ++k) {
+      const std::uint32_t ray = at.ray[k];
+      FirstHit& first = task.first_hits[first_of_batch + rays.sample[ray]];
+      first.object =
+          std::int32_t(object_of(frame.world, rays.instance[ray], rays.geometry[ray], rays.primitive[ray]));
+      first.material = std::int32_t(hits.material[k]);
+      first.primitive = rays.primitive[ray];
+      first.R = float(lane(hits.R, k));
+      const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(hits.N, k);
+      const Vec2<double> uv =
+          uv_at(frame.world, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]}, P);
+      first.P[0] = float(P.x), first.P[1] = float(P.y), first.P[2] = float(P.z);
+      first.N[0] = float(N.x), first.N[1] = float(N.y), first.N[2] = float(N.z);
+      first.uv[0] = float(uv.x), first.uv[1] = float(uv.y);
+      for (int c = 0; c < color_channels; ++c) first.albedo[c] = float(lane(albedo[c], k));
+    }
+  }
+
   // ---- the film
 
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
@@ -611,6 +804,9 @@ struct Work {
     for (std::uint32_t i = 0; i < count; ++i) {
       for (int c = 0; c < color_channels; ++c)
         task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
+      if constexpr (Seen) {
+        if (task.layer_sums) add_layers_to_pixel(pixel, i);
+      }
       if (task.least_and_greatest) {
         float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
         float* greatest = least + color_channels;
@@ -625,8 +821,13 @@ struct Work {
 };
 
 void render(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) {
-  Work work{frame, task, scratch, counts};
-  work.run();
+  if (frame.witness || task.layer_sums || task.first_hits) {
+    Work<true> work{frame, task, scratch, counts};
+    work.run();
+  } else {
+    Work<false> work{frame, task, scratch, counts};
+    work.run();
+  }
 }
 
 }  // namespace

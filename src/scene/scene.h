@@ -94,6 +94,23 @@ struct ImageSettings {
 };
 inline constexpr Range sample_range{1, 65536};
 
+/// What is kept of a picture beside its colours.
+struct FilmSettings {
+  bool layers = false;
+};
+template <>
+inline constexpr Parameter<FilmSettings> parameters_of<FilmSettings>[] = {
+    {"layers",
+     &FilmSettings::layers,
+     {},
+     "",
+     "Whether an EXR also holds what the colours are made of: ambient, emission and background, and for each "
+     "light "
+     "its diffuse and its specular part, directly and by reflection and refraction, which add up to the "
+     "colours "
+     "exactly; and depth, normals, albedo and who is where. See layers.md."},
+};
+
 /// The choices of the lecture that hold for the whole scene.
 struct Illumination {
   ModelId model = ModelId::phong;
@@ -273,6 +290,7 @@ struct Scene {
   std::string name;  ///< The input's file name, without its folder.
   Camera camera;
   ImageSettings image;
+  FilmSettings film;
   Illumination illumination;
   WhittedSettings whitted;
   Rgb background{0, 0, 0};

@@ -45,6 +45,7 @@ const std::vector<Topic>& catalogue() {
         topic("materials", "What a material may say", {material}),
         topic("camera", "The camera", {f.camera}),
         topic("image", "The image", {f.image}),
+        topic("film", "What is kept beside the colours", {f.film}),
         topic("illumination", "The equation's choices for the whole scene", {f.illumination}),
         topic("integrators", "Integrators: how rays are followed", f.integrators),
     };

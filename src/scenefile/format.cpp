@@ -201,6 +201,7 @@ Format make_format() {
                      "What a PNG holds: `srgb` encodes the linear values for screens, `none` writes them as "
                      "they are, as "
                      "renderers once did. EXR is always linear.")});
+  f.film = section("film", "what is kept of a picture beside its colours", fields_of<FilmSettings>());
   f.samples = section("samples", "how many samples a pixel gets, where it is not the same number for all",
                       {field("adaptive", FieldType::section, "", "As many as each pixel needs.")});
   f.adaptive = section("adaptive", "samples where the picture needs them", fields_of<AdaptiveSamples>());
@@ -253,6 +254,7 @@ Format make_format() {
       {with(required("lambent", FieldType::integer, "The version of the format."), {1, 1}, ""),
        required("camera", FieldType::section, "Where the picture is seen from."),
        field("image", FieldType::section, "", "The picture's size and how its pixels are sampled."),
+       field("film", FieldType::section, "", "What is kept of a picture beside its colours."),
        field("illumination", FieldType::section, "", "The equation and its choices, for the whole scene."),
        field("integrator", FieldType::section, "", "How rays are followed."),
        with(field("background", FieldType::color, text_of(Scene{}.background),

@@ -61,7 +61,7 @@ struct Section {
 };
 
 struct Format {
-  Section top, camera, image, samples, adaptive, illumination, attenuation, integrator, material;
+  Section top, camera, image, film, samples, adaptive, illumination, attenuation, integrator, material;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.

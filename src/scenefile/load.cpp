@@ -44,7 +44,8 @@ ScenePtr read(std::string_view yaml, const std::string& name, const std::string&
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   scene->name = fs::path(path).filename().string();
-  // What reading took lies in holes between what stays; glibc gives such pages back to the system only when asked.
+  // What reading took lies in holes between what stays; glibc gives such pages back to the system only when
+  // asked.
 #ifdef __GLIBC__
   ::malloc_trim(0);
 #endif

@@ -105,7 +105,7 @@ at once, with line and column. For completion and checks while you type, point y
 # yaml-language-server: $schema=lambent.schema.json
 ```
 
-Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [image](#image), [illumination](#illumination),
+Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [image](#image), [film](#film), [illumination](#illumination),
 [models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
 [transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
@@ -200,6 +200,7 @@ std::string scene_manual() {
       "larger "
       "`start`. The result is the same whatever the machine, as all else.\n\n" +
       table(f.adaptive.fields);
+  text += "## Film\n\n" + table(f.film.fields);
   text += "## Illumination\n\n" + std::string(illumination_text) + table(f.illumination.fields);
   text += "An `attenuation` of one's own is a mapping; at least one of its numbers is not 0:\n\n" +
           table(f.attenuation.fields);

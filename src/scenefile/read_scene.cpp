@@ -282,6 +282,9 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
     if (const Value* v = top->find("lambent")) read_version(reader, *v);
     if (const Value* v = top->find("camera")) read_camera(reader, *v, scene);
     if (const Value* v = top->find("image")) read_image(reader, *v, scene.image);
+    if (const Value* v = top->find("film"))
+      if (const auto film = reader.mapping(*v, f.film.fields, "the film"))
+        reader.table(*film, f.film.fields, scene.film);
     if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
     if (const Value* v = top->find("integrator")) read_integrator(reader, *v, scene.whitted);
     if (const Value* v = top->find("background"))

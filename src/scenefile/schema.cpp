@@ -146,6 +146,7 @@ std::string scene_schema() {
   Json& definitions = schema["definitions"] = Json::object();
   definitions["camera"] = object_of(f.camera);
   definitions["image"] = object_of(f.image);
+  definitions["film"] = object_of(f.film);
   definitions["samples"] = object_of(f.samples);
   definitions["samples"]["minProperties"] = 1;
   definitions["adaptive"] = object_of(f.adaptive);

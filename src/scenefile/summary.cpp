@@ -8,6 +8,9 @@
 #include "scenefile/names.h"
 
 namespace lambent {
+
+bool wants_layers(const ScenePtr& scene) { return scene->film.layers; }
+
 namespace {
 
 // Six digits: what people read, not what a program reads back.

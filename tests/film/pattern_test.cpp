@@ -80,9 +80,9 @@ TEST(Film, CornersAreAveraged) {
   ImageSettings settings;
   settings.width = 2, settings.height = 1, settings.pattern = Pattern::corners;
   Film film(settings);
-  film.colors.clear();
+  film.values.clear();
   for (float v : {0.f, 1.f, 4.f, 3.f, 0.f, 8.f})
-    film.colors.insert(film.colors.end(), {v, 2 * v, 0});  // 3 x 2 corners
+    film.values.insert(film.values.end(), {v, 2 * v, 0});  // 3 x 2 corners
   const Image image = develop(film, settings);
   EXPECT_EQ(image.pixel(0, 0)[0], (0 + 1 + 3 + 0) / 4.f);
   EXPECT_EQ(image.pixel(1, 0)[0], (1 + 4 + 0 + 8) / 4.f);

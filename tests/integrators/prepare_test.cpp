@@ -55,7 +55,7 @@ TEST(Prepare, ThePictureDoesNotDependOnTheQualityOfTheTrees) {
     Film film(scene->image);
     render_tiles(prepared->frame, choose_kernel(""), film, {});
     nodes[int(quality)] = prepared->world.nodes.size();
-    pictures[int(quality)] = std::move(film.colors);
+    pictures[int(quality)] = std::move(film.values);
   }
   EXPECT_NE(nodes[0], nodes[1]) << "these are the same trees";
   ASSERT_EQ(pictures[0].size(), pictures[1].size());

@@ -268,7 +268,7 @@ TEST(ReaderMessages, Structure) {
             "'up' lies along the way from 'eye' to 'target' | to look straight up or down give another 'up', "
             "such as [0, 0, -1]");
   EXPECT_EQ(only("- 1\n- 2\n"),
-            "the scene must be a mapping, not a list | its keys are: lambent, camera, image, illumination, "
+            "the scene must be a mapping, not a list | its keys are: lambent, camera, image, film, illumination, "
             "integrator, background, lights, materials, objects");
   EXPECT_EQ(
       only(head + "---\n" + head),

@@ -1,0 +1,175 @@
+#include "explain/derivation.h"
+
+#include "accel/surface.h"
+
+namespace lambent {
+namespace {
+
+/// Notes what a kernel tells.
+class Notes {
+ public:
+  Notes(Derivation& derivation, const Frame& frame) : to_(derivation), frame_(frame) {}
+
+  Witness witness() {
+    return {this,
+            [](void* self, const SeenRay& seen) { static_cast<Notes*>(self)->ray(seen); },
+            [](void* self, const SeenHit& seen) { static_cast<Notes*>(self)->hit(seen); },
+            [](void* self, const SeenLight& seen) { static_cast<Notes*>(self)->light(seen); },
+            [](void* self, const SeenTerm& seen) { static_cast<Notes*>(self)->term(seen); },
+            [](void* self, const SeenColor& seen) { static_cast<Notes*>(self)->color(seen); }};
+  }
+  RayListener listener() {
+    return {this,
+            [](void* self, const AskedRay& ray) { static_cast<Notes*>(self)->to_.asked.push_back(ray); }};
+  }
+
+ private:
+  void ray(const SeenRay& seen) {
+    DerivedRay ray;
+    ray.seen = seen;
+    to_.rays.push_back(ray);
+    sample_of_.push_back(seen.parent == no_ray ? std::size_t(seen.pixel) + std::size_t(seen.sample)
+                                               : sample_of_[seen.parent]);
+    if (seen.parent != no_ray) to_.rays[seen.parent].children.push_back(seen.ray);
+    else to_.samples[sample_of_.back()].eye_ray = seen.ray;
+  }
+  void hit(const SeenHit& seen) {
+    DerivedRay& ray = to_.rays[seen.ray];
+    ray.hits = true;
+    ray.hit = seen;
+    ray.object = object_of(frame_.world, seen.instance, seen.geometry, seen.primitive);
+    // Small shapes of many objects stand together in one geometry: count from the object's first.
+    const Geometry& g = frame_.world.geometries[seen.geometry];
+    ray.primitive = seen.primitive;
+    if (g.object_of_primitive)
+      for (ray.primitive = 0; ray.primitive < seen.primitive &&
+                              g.object_of_primitive[seen.primitive - ray.primitive - 1] == ray.object;)
+        ++ray.primitive;
+    ray.lights.resize(std::size_t(frame_.light_count));
+  }
+  void light(const SeenLight& seen) {
+    DerivedRay& ray = to_.rays[seen.ray];
+    DerivedLight& light = ray.lights[std::size_t(seen.light)];
+    light.reaches = true;
+    light.seen = seen;
+    if (seen.asked) light.obstacles = on_the_way(ray.hit.start, seen.L, seen.r);
+  }
+  void term(const SeenTerm& seen) {
+    DerivedRay& ray = to_.rays[seen.ray];
+    switch (seen.term) {
+      case Term::ambient:
+        ray.ambient = seen.color;
+        return;
+      case Term::emission:
+        ray.emission = seen.color;
+        return;
+      case Term::diffuse:
+        ray.lights[std::size_t(seen.light)].diffuse = seen.color;
+        return;
+      case Term::specular:
+        ray.lights[std::size_t(seen.light)].specular = seen.color;
+        return;
+    }
+  }
+  void color(const SeenColor& seen) {
+    to_.rays[seen.ray].color = seen.color;
+    DerivedSample& sample = to_.samples[sample_of_[seen.ray]];
+    sample.order.push_back(seen.ray);
+  }
+
+  /// What the shadow ray meets, up to the first thing that blocks it: asked for as `transmittance` in the
+  /// kernel does.
+  std::vector<Obstacle> on_the_way(const Vec3<double>& start, const Vec3<double>& L, double r) const {
+    std::vector<Obstacle> obstacles;
+    QueryRay<float> ray(cast<float>(start), cast<float>(L));
+    const Vec3<double> d = normalize(cast<double>(ray.d));
+    double left = float(r), gone = 0;
+    while (left > 0) {
+      Closest<float> hit{float(left)};
+      find_closest(frame_.world, ray, true, hit);
+      if (hit.ids.geometry < 0) break;
+      const auto& [instance, geometry, primitive] = hit.ids;
+      const std::uint32_t material = material_of(frame_.world, instance, geometry, primitive);
+      const SurfacePoint<double> s = surface_at(frame_.world, hit.ids, cast<double>(ray.o), d, hit.t);
+      const bool blocks = !frame_.whitted.colored_shadows || !frame_.materials[material].transmits;
+      obstacles.push_back(
+          {object_of(frame_.world, instance, geometry, primitive), material, gone + s.t, blocks});
+      if (blocks) break;
+      gone += s.t;
+      left -= max(s.t, 0.0);
+      const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
+      ray.o = cast<float>(s.P + side * s.offset * s.Ng);
+    }
+    return obstacles;
+  }
+
+  Derivation& to_;
+  const Frame& frame_;
+  std::vector<std::size_t> sample_of_;
+};
+
+}  // namespace
+
+int Derivation::model_of(const DerivedRay& ray) const {
+  const Material& material = scene->materials[ray.hit.material];
+  return int(material.model.value_or(scene->illumination.model));
+}
+
+Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
+                  int x, int y, int samples) {
+  Derivation result;
+  const bool corners = scene->image.pattern == Pattern::corners;
+  result.scene = std::move(scene);
+  result.x = x, result.y = y;
+  std::copy(std::begin(prepared.frame.fading), std::end(prepared.frame.fading), result.fading);
+
+  // With Pattern::corners the samples are four pixels of the film, of one sample each.
+  std::vector<Pixel> pixels{{x, y}};
+  if (corners) pixels = {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
+  double nearest = 0;
+  for (const Pixel& pixel : pixels)
+    for (int s = 0; s < samples; ++s) {
+      DerivedSample sample;
+      sample.x = pixel.x + prepared.frame.pattern[s].x;
+      sample.y = pixel.y + prepared.frame.pattern[s].y;
+      const double dx = sample.x - x - 0.5, dy = sample.y - y - 0.5, distance = dx * dx + dy * dy;
+      if (result.samples.empty() || distance < nearest)
+        nearest = distance, result.central = int(result.samples.size());
+      result.samples.push_back(sample);
+    }
+
+  Frame frame = prepared.frame;
+  Notes notes(result, frame);
+  const Witness witness = notes.witness();
+  const RayListener listener = notes.listener();
+  frame.witness = &witness;
+  frame.listener = &listener;
+  std::vector<double> sums(pixels.size() * color_channels);
+  Scratch scratch;
+  RayCounts counts;
+  kernel.render(frame, {pixels.data(), std::uint32_t(pixels.size()), 0, samples, sums.data(), nullptr},
+                scratch, counts);
+
+  for (DerivedSample& sample : result.samples) {
+    for (const std::uint32_t number : sample.order)
+      for (int c = 0; c < color_channels; ++c)
+        sample.color[c] += result.rays[number].seen.weight[c] * result.rays[number].color[c];
+    result.sum = result.sum + sample.color;
+  }
+  // As the film does it: a mean for each of its pixels, and with Pattern::corners the mean of four of them.
+  const auto develop = [&](const auto& sum_of, float* to) {
+    for (int c = 0; c < color_channels; ++c) {
+      std::vector<float> film;
+      for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
+        film.push_back(float(sum_of(pixel, c) / samples));
+      to[c] = corners ? float((double(film[0]) + film[1] + film[2] + film[3]) / 4) : film[0];
+    }
+  };
+  develop([&](std::size_t pixel, int c) { return corners ? result.samples[pixel].color[c] : result.sum[c]; },
+          result.pixel);
+  develop([&](std::size_t pixel, int c) { return sums[pixel * color_channels + std::size_t(c)]; },
+          result.rendered);
+  return result;
+}
+
+}  // namespace lambent

@@ -1,0 +1,66 @@
+#pragma once
+// What the renderer told about one pixel, in order.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "integrators/kernels.h"
+#include "integrators/prepare.h"
+
+namespace lambent {
+
+/// Something on the way to a light.
+struct Obstacle {
+  std::uint32_t object, material;
+  double distance;  ///< From where the shadow ray began.
+  bool blocks;      ///< False: it lets light through, times its `transmit`.
+};
+
+struct DerivedLight {
+  bool reaches = false;  ///< Whether the renderer looked at it at all: not at lights that cannot reach.
+  SeenLight seen{};
+  std::vector<Obstacle> obstacles;  ///< Up to the first that blocks.
+  Rgb diffuse{}, specular{};
+};
+
+struct DerivedRay {
+  SeenRay seen{};
+  bool hits = false;
+  SeenHit hit{};
+  std::uint32_t object = 0;
+  std::int32_t primitive = 0;  ///< Within its shape.
+  Rgb ambient{}, emission{};
+  std::vector<DerivedLight> lights;  ///< One for each of the scene's.
+  Rgb color{};                       ///< What it adds, before its weight.
+  std::vector<std::uint32_t> children;
+};
+
+/// A sample: its first ray, and all of them in the order in which their colours are added.
+struct DerivedSample {
+  double x = 0, y = 0;  ///< In pixels from the picture's top left corner.
+  std::uint32_t eye_ray = 0;
+  std::vector<std::uint32_t> order;
+  Rgb color{};  ///< The sum of weight * colour in that order.
+};
+
+struct Derivation {
+  std::shared_ptr<const Scene> scene;
+  int x, y;
+  std::vector<DerivedRay> rays;  ///< By their number.
+  std::vector<DerivedSample> samples;
+  int central = 0;
+  Rgb sum{};                            ///< Of the samples' colours, in their order.
+  float pixel[color_channels] = {};     ///< The mean, as the film keeps it.
+  float rendered[color_channels] = {};  ///< The same from the renderer's own sum.
+  std::vector<AskedRay> asked;
+  FadingRecord fading[model_count];
+
+  int model_of(const DerivedRay& ray) const;
+};
+
+/// Renders pixel x, y once more, and notes what is told. `samples`: how many of the frame's pattern it gets.
+Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
+                  int x, int y, int samples);
+
+}  // namespace lambent

@@ -1,0 +1,68 @@
+#include "explain/terms.h"
+
+namespace lambent {
+namespace {
+
+Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, const DerivedRay& ray) {
+  const Material& material = derivation.scene->materials[ray.hit.material];
+  const ModelInfo& model = info(ModelId(derivation.model_of(ray)));
+  Surface<Traced, Color<Traced>> s;
+  s.N = vector_symbol("N", ray.hit.N);
+  s.V = vector_symbol("V", ray.hit.V);
+  s.ka = color_symbol("Ka", material.ambient);
+  s.kd = color_symbol("Kd", material.diffuse);
+  s.ks = color_symbol("Ks", material.specular);
+  s.n = Traced::symbol("n", material.shininess);
+  for (int i = 0; i < max_model_parameters; ++i) {
+    if (!model.parameters[i].name) {
+      s.own[i] = Traced(0);
+      continue;
+    }
+    const auto given = material.own.find(model.parameters[i].name);
+    s.own[i] =
+        Traced::symbol(model.parameters[i].name,
+                       given == material.own.end() ? model.parameters[i].default_value : given->second);
+  }
+  return s;
+}
+
+}  // namespace
+
+MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
+  Formulas formulas;
+  const Illumination& illumination = derivation.scene->illumination;
+  const Color<Traced> Ka = color_symbol("Ka", derivation.scene->materials[ray.hit.material].ambient),
+                      Ia = color_symbol("Ia", illumination.ambient);
+  const Traced faded = attenuate(derivation.fading[derivation.model_of(ray)].ambient,
+                                 Traced::symbol("R", ray.hit.R), Traced(illumination.minimum_distance));
+  return simplified(formulas, Ka * (Ia * faded));
+}
+
+LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, int l) {
+  const SeenLight& light = ray.lights[std::size_t(l)].seen;
+  LightFormulas result;
+  result.NL = dot(ray.hit.N, light.L);
+  {
+    Formulas formulas;
+    const Traced faded =
+        attenuate(derivation.fading[derivation.model_of(ray)].attenuation, Traced::symbol("r", light.r),
+                  Traced(derivation.scene->illumination.minimum_distance));
+    Color<Traced> I = faded * color_symbol("Il", light.I);
+    // 1 where nothing is in the way.
+    if (!(light.share == grey(1.0))) I = color_symbol("T", light.share) * I;
+    result.arriving = simplified(formulas, I);
+  }
+  Formulas formulas;
+  const auto s = surface_symbols(derivation, ray);
+  const Arriving<Traced, Color<Traced>> arriving{vector_symbol("L", light.L),
+                                                 color_symbol("I", light.arriving)};
+  with_model(ModelId(derivation.model_of(ray)), [&]<class Model>() {
+    const auto terms = Model::evaluate(s, arriving);
+    result.diffuse = simplified(formulas, terms.diffuse);
+    result.specular = simplified(formulas, terms.specular);
+  });
+  result.definitions = formulas.definitions;
+  return result;
+}
+
+}  // namespace lambent

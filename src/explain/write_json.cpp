@@ -1,0 +1,198 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "explain/terms.h"
+#include "explain/write.h"
+#include "film/layer_book.h"
+#include "image/srgb.h"
+#include "lambent/image.h"
+#include "lambent/lambent.h"
+
+namespace lambent {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json(const Rgb& color) {
+  Json list = Json::array();
+  for (int c = 0; c < color_channels; ++c) list.push_back(color[c]);
+  return list;
+}
+Json json(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
+/// JSON has no infinity: null.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json json(const Place& place) {
+  if (place.line == 0) return nullptr;
+  return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
+}
+
+class Telling {
+ public:
+  explicit Telling(const Derivation& derivation)
+      : d_(derivation),
+        scene_(*derivation.scene),
+        objects_(object_names(scene_)),
+        materials_(material_names(scene_)) {}
+
+  Json pixel(std::optional<int> only) const {
+    Json result;
+    result["lambent"] = version();
+    result["scene"] = scene_.name;
+    result["size"] = {scene_.image.width, scene_.image.height};
+    result["pixel"] = {d_.x, d_.y};
+    result["ambient"] = json(scene_.illumination.ambient);
+    result["background"] = json(scene_.background);
+    result["minimum_distance"] = scene_.illumination.minimum_distance;
+    result["sample_count"] = d_.samples.size();
+    result["central_sample"] = d_.central;
+    result["samples"] = Json::array();
+    for (std::size_t i = 0; i < d_.samples.size(); ++i)
+      if (!only || std::size_t(*only) == i) result["samples"].push_back(sample(i));
+    result["sum"] = json(d_.sum);
+    Rgb linear;
+    Json code = Json::array();
+    const bool encoded = scene_.image.encoding == Encoding::srgb;
+    for (int c = 0; c < color_channels; ++c) {
+      linear[c] = d_.pixel[c];
+      code.push_back(
+          quantize(encoded ? srgb_from_linear(linear[c]) : std::min(std::max(linear[c], 0.0), 1.0), 255));
+    }
+    result["linear"] = json(linear);
+    result["encoding"] = encoded ? "srgb" : "none";
+    result["code"] = code;
+    result["adds_up"] = std::equal(d_.pixel, d_.pixel + color_channels, d_.rendered);
+    return result;
+  }
+
+ private:
+  Json sample(std::size_t number) const {
+    const DerivedSample& sample = d_.samples[number];
+    Json result;
+    result["sample"] = number;
+    result["position"] = {sample.x, sample.y};
+    result["weight"] = 1.0 / double(d_.samples.size());
+    result["color"] = json(sample.color);
+    result["order"] = sample.order;
+    result["ray"] = ray(sample.eye_ray);
+    return result;
+  }
+
+  Json ray(std::uint32_t number) const {
+    const DerivedRay& ray = d_.rays[number];
+    Json result;
+    result["ray"] = number;
+    result["way"] = ray.seen.parent == no_ray         ? "eye"
+                    : ray.seen.way == Way::reflection ? "reflection"
+                                                      : "refraction";
+    if (ray.seen.total) result["total_reflection"] = true;
+    result["origin"] = json(ray.seen.o);
+    result["direction"] = json(ray.seen.d);
+    result["factor"] = json(ray.seen.factor);
+    result["weight"] = json(ray.seen.weight);
+    result["color"] = json(ray.color);
+    result["hit"] = ray.hits ? hit(ray) : Json(nullptr);
+    result["rays"] = Json::array();
+    for (const std::uint32_t child : ray.children) result["rays"].push_back(this->ray(child));
+    return result;
+  }
+
+  Json hit(const DerivedRay& ray) const {
+    const Material& material = scene_.materials[ray.hit.material];
+    const int model = d_.model_of(ray);
+    Json result;
+    result["object"] = objects_[ray.object];
+    result["object_place"] = json(scene_.objects[ray.object].place);
+    result["primitive"] = ray.primitive;
+    result["material"] = materials_[ray.hit.material];
+    result["material_place"] = json(material.place);
+    result["model"] = info(ModelId(model)).name;
+    result["equation"] = info(ModelId(model)).equation;
+    result["t"] = ray.hit.t;
+    result["R"] = ray.hit.R;
+    result["P"] = json(ray.hit.P);
+    result["N"] = json(ray.hit.N);
+    result["geometric_N"] = json(ray.hit.G);
+    result["V"] = json(ray.hit.V);
+    result["outside"] = ray.hit.outside;
+    result["Ka"] = json(material.ambient);
+    result["Kd"] = json(material.diffuse);
+    result["Ks"] = json(material.specular);
+    result["n"] = material.shininess;
+    result["Ia_over_R"] = json(ray.hit.Ia);
+    result["ambient"] = formula(ambient_formula(d_, ray), ray.ambient);
+    result["emission"] = json(ray.emission);
+    result["lights"] = Json::array();
+    for (std::size_t l = 0; l < ray.lights.size(); ++l) result["lights"].push_back(light(ray, int(l)));
+    return result;
+  }
+
+  Json light(const DerivedRay& ray, int l) const {
+    const DerivedLight& light = ray.lights[std::size_t(l)];
+    Json result;
+    result["light"] = scene_.lights[std::size_t(l)].name;
+    result["kind"] = with_light(scene_.lights[std::size_t(l)].light,
+                                [](const auto& one) { return std::decay_t<decltype(one)>::info.name; });
+    result["place"] = json(scene_.lights[std::size_t(l)].place);
+    const SeenLight& seen = light.seen;
+    if (!light.reaches) {
+      result["state"] = "out of reach";
+      return result;
+    }
+    const LightFormulas formulas = light_formulas(d_, ray, l);
+    const bool blocked = !light.obstacles.empty() && light.obstacles.back().blocks;
+    result["state"] = !(formulas.NL > 0)      ? "behind"
+                      : is_black(seen.I)      ? "dark"
+                      : blocked || !seen.open ? "blocked"
+                                              : "visible";
+    result["L"] = json(seen.L);
+    result["r"] = finite(seen.r);
+    result["N.L"] = formulas.NL;
+    result["Il"] = json(seen.I);
+    result["attenuation"] = seen.faded;
+    result["share"] = json(seen.share);
+    result["I"] = json(seen.arriving);
+    result["on_the_way"] = Json::array();
+    for (const Obstacle& obstacle : light.obstacles)
+      result["on_the_way"].push_back({{"object", objects_[obstacle.object]},
+                                      {"material", materials_[obstacle.material]},
+                                      {"distance", obstacle.distance},
+                                      {"blocks", obstacle.blocks},
+                                      {"transmit", json(scene_.materials[obstacle.material].transmit)}});
+    if (is_black(seen.arriving)) {
+      result["diffuse"] = result["specular"] = nullptr;
+      return result;
+    }
+    result["vectors"] = Json::object();
+    for (const auto& definition : formulas.definitions)
+      result["vectors"][definition.name] = {{"equation", definition.formula},
+                                            {"value", json(definition.value)}};
+    result["diffuse"] = formula(formulas.diffuse, light.diffuse);
+    result["specular"] = formula(formulas.specular, light.specular);
+    return result;
+  }
+
+  static Json formula(const MathTerm& term, const Rgb& value) {
+    Json result;
+    result["equation"] = written(term, Notation::text, Filled::symbols);
+    result["symbols"] = Json::object();
+    for (const MathTerm* symbol : symbols_of(term)) {
+      const Rgb& v = symbol->value;
+      result["symbols"][symbol->name] = v == grey(v[0]) ? finite(v[0]) : json(v);
+    }
+    result["value"] = json(value);
+    return result;
+  }
+
+  const Derivation& d_;
+  const Scene& scene_;
+  std::vector<std::string> objects_, materials_;
+};
+
+}  // namespace
+
+std::string json_of(const Derivation& derivation, std::optional<int> sample) {
+  return Telling(derivation).pixel(sample).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+         "\n";
+}
+
+}  // namespace lambent

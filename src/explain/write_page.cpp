@@ -1,0 +1,229 @@
+#include <fmt/format.h>
+
+#include "explain/terms.h"
+#include "explain/write.h"
+#include "film/layer_book.h"
+#include "image/srgb.h"
+#include "lambent/image.h"
+
+namespace lambent {
+namespace {
+
+std::string text_of(const Vec3<double>& v) {
+  return fmt::format("({}, {}, {})", short_number(v.x), short_number(v.y), short_number(v.z));
+}
+std::string place_of(const Place& place) {
+  return place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "";
+}
+
+class Telling {
+ public:
+  Telling(const Derivation& derivation, Page& page)
+      : d_(derivation),
+        scene_(*derivation.scene),
+        page_(page),
+        objects_(object_names(scene_)),
+        materials_(material_names(scene_)) {}
+
+  void tell(int number) {
+    const DerivedSample& sample = d_.samples[std::size_t(number)];
+    page_.title(fmt::format("{}, pixel {},{} of {} x {}", scene_.name, d_.x, d_.y, scene_.image.width,
+                            scene_.image.height));
+    page_.line(fmt::format("Sample {} of {}, at {}, {}{}.", number, d_.samples.size(), short_number(sample.x),
+                           short_number(sample.y),
+                           number == d_.central ? ", the nearest to the pixel's centre" : ""));
+    tell_ray(sample.eye_ray);
+    tell_sums(sample);
+    tell_pixel();
+  }
+
+ private:
+  void tell_ray(std::uint32_t number) {
+    const DerivedRay& ray = d_.rays[number];
+    const std::string name = ray.seen.parent == no_ray ? "from the eye"
+                             : ray.seen.way == Way::reflection
+                                 ? (ray.seen.total ? "totally reflected" : "mirrored")
+                                 : "refracted";
+    page_.heading(fmt::format("Ray {}, {}", number, name));
+    page_.line(fmt::format("starts at {}, goes along {}", text_of(ray.seen.o), text_of(ray.seen.d)));
+    if (ray.seen.parent != no_ray)
+      page_.line(fmt::format("counts {} of what it brings; {} in the sample", short_color(ray.seen.factor),
+                             short_color(ray.seen.weight)));
+    if (!ray.hits) {
+      page_.line(fmt::format("meets nothing: the background, {}", short_color(ray.color)));
+      return;
+    }
+    tell_hit(ray);
+    tell_terms(ray);
+    for (const std::uint32_t child : ray.children) {
+      page_.begin();
+      tell_ray(child);
+      page_.end();
+    }
+  }
+
+  void tell_hit(const DerivedRay& ray) {
+    const Object& object = scene_.objects[ray.object];
+    const Material& material = scene_.materials[ray.hit.material];
+    page_.line(fmt::format("meets {}{}, primitive {}, after {}{}", objects_[ray.object],
+                           place_of(object.place), ray.primitive, short_number(ray.hit.t),
+                           ray.hit.outside ? "" : ", from inside"));
+    page_.line(fmt::format("material {}{}: Ka {}, Kd {}, Ks {}, n {}", materials_[ray.hit.material],
+                           place_of(material.place), short_color(material.ambient),
+                           short_color(material.diffuse), short_color(material.specular),
+                           short_number(material.shininess)));
+    equation("P", text_of(ray.hit.P));
+    equation("N", text_of(ray.hit.N));
+    equation("V", text_of(ray.hit.V));
+    page_.equation("R", {written(grey(ray.hit.R), page_.notation())}, "the way from the eye");
+    const ModelInfo& model = info(ModelId(d_.model_of(ray)));
+    page_.line(fmt::format("model {}: Ka Ia{} + sum over the lights of {}", model.name,
+                           d_.fading[d_.model_of(ray)].ambient == AmbientAttenuation::none ? "" : " / R",
+                           model.equation));
+  }
+
+  void tell_terms(const DerivedRay& ray) {
+    page_.line("");
+    term("ambient", ambient_formula(d_, ray), ray.ambient);
+    Rgb so_far = ray.ambient;
+    for (std::size_t l = 0; l < ray.lights.size(); ++l) {
+      tell_light(ray, int(l));
+      so_far = so_far + ray.lights[l].diffuse;
+      so_far = so_far + ray.lights[l].specular;
+      if (shines(ray.lights[l])) {
+        page_.begin();
+        page_.equation("sum", {written(so_far, page_.notation())}, "so far");
+        page_.end();
+      }
+    }
+    if (!is_black(ray.emission)) {
+      page_.equation("emission", {written(ray.emission, page_.notation())},
+                     place_of(scene_.materials[ray.hit.material].place));
+      so_far = ray.emission + so_far;
+    }
+    page_.line("");
+    page_.equation("I", {written(so_far, page_.notation())}, "what this surface sends back");
+  }
+
+  static bool shines(const DerivedLight& light) { return light.reaches && !is_black(light.seen.arriving); }
+
+  void tell_light(const DerivedRay& ray, int l) {
+    const DerivedLight& light = ray.lights[std::size_t(l)];
+    const Light& which = scene_.lights[std::size_t(l)];
+    const std::string name = fmt::format("Light {}{}", which.name, place_of(which.place));
+    page_.line("");
+    if (!light.reaches) return page_.line(name + ": does not reach this far");
+    const SeenLight& seen = light.seen;
+    const LightFormulas formulas = light_formulas(d_, ray, l);
+    std::string where = fmt::format("{}: L = {}", name, text_of(seen.L));
+    if (seen.r < 1e300) where += fmt::format(", r = {}", short_number(seen.r));
+    page_.line(where);
+    page_.begin();
+    if (!(formulas.NL > 0))
+      page_.line(fmt::format("behind the surface: N.L = {}", short_number(formulas.NL)));
+    else if (is_black(seen.I)) page_.line("dark in this direction");
+    tell_obstacles(light);
+    if (shines(light)) {
+      term("I", formulas.arriving, seen.arriving);
+      for (const auto& definition : formulas.definitions)
+        page_.equation(definition.name,
+                       {written(definition.formula, page_.notation()), text_in(definition.value)}, "");
+      term("diffuse", formulas.diffuse, light.diffuse);
+      term("specular", formulas.specular, light.specular);
+    }
+    page_.end();
+  }
+
+  void tell_obstacles(const DerivedLight& light) {
+    for (const Obstacle& obstacle : light.obstacles) {
+      const Object& object = scene_.objects[obstacle.object];
+      page_.line(fmt::format(
+          "{} {}{}, {} away{}", obstacle.blocks ? "blocked by" : "through", objects_[obstacle.object],
+          place_of(object.place), short_number(obstacle.distance),
+          obstacle.blocks ? ""
+                          : ", which leaves " + short_color(scene_.materials[obstacle.material].transmit)));
+    }
+  }
+
+  void term(const std::string& name, const MathTerm& formula, const Rgb& value) {
+    const std::string symbols = written(formula, page_.notation(), Filled::symbols),
+                      numbers = written(formula, page_.notation(), Filled::numbers),
+                      result = written(value, page_.notation());
+    std::vector<std::string> sides;
+    for (const std::string& side : {symbols, numbers, result})
+      if (sides.empty() || sides.back() != side) sides.push_back(side);
+    page_.equation(name, sides, "");
+  }
+  void equation(const std::string& name, const std::string& value) {
+    page_.equation(name, {in_notation(value)}, "");
+  }
+  std::string in_notation(const std::string& vector) const {
+    return page_.notation() == Notation::mathml ? "<mtext>" + vector + "</mtext>" : vector;
+  }
+  std::string text_in(const Vec3<double>& v) const { return in_notation(text_of(v)); }
+
+  void tell_sums(const DerivedSample& sample) {
+    page_.heading("The sample's colour");
+    Rgb sum{};
+    for (const std::uint32_t number : sample.order) {
+      const DerivedRay& ray = d_.rays[number];
+      Rgb brings;
+      for (int c = 0; c < color_channels; ++c) brings[c] = ray.seen.weight[c] * ray.color[c];
+      sum = sum + brings;
+      std::vector<std::string> sides{written(brings, page_.notation())};
+      if (!(ray.seen.weight == grey(1.0)))
+        sides.insert(sides.begin(), written(ray.seen.weight, page_.notation()) + times() +
+                                        written(ray.color, page_.notation()));
+      page_.equation(fmt::format("ray {}", number), sides, "");
+    }
+    page_.equation("sum", {written(sum, page_.notation())}, "");
+  }
+  std::string times() const {
+    return page_.notation() == Notation::mathml  ? "<mo>&#8901;</mo>"
+           : page_.notation() == Notation::latex ? " \\cdot "
+                                                 : " * ";
+  }
+
+  void tell_pixel() {
+    page_.heading("The pixel");
+    constexpr std::size_t most = 16;
+    const std::size_t count = d_.samples.size();
+    if (count > 1) {
+      page_.line(fmt::format("Every sample counts 1/{}: they lie where the filter wants them.", count));
+      for (std::size_t i = 0; i < std::min(count, most); ++i)
+        page_.equation(fmt::format("sample {}", i), {written(d_.samples[i].color, page_.notation())}, "");
+      if (count > most) page_.line(fmt::format("... and {} more; --json has them all.", count - most));
+    }
+    Rgb linear;
+    int code[color_channels];
+    const bool encoded = scene_.image.encoding == Encoding::srgb;
+    std::string codes;
+    for (int c = 0; c < color_channels; ++c) {
+      linear[c] = d_.pixel[c];
+      const double shown = encoded ? srgb_from_linear(linear[c]) : std::min(std::max(linear[c], 0.0), 1.0);
+      code[c] = quantize(shown, 255);
+      codes += fmt::format("{}{}", c ? " " : "", code[c]);
+    }
+    page_.equation("mean", {written(linear, page_.notation())}, "as the EXR holds it, linear");
+    page_.swatch(fmt::format("in a PNG{}: {}  (#{:02x}{:02x}{:02x})", encoded ? ", sRGB-encoded" : "", codes,
+                             code[0], code[1], code[2]),
+                 code);
+    const bool exact = std::equal(d_.pixel, d_.pixel + color_channels, d_.rendered);
+    page_.line(exact ? "The terms add up to the rendered pixel, bit for bit."
+                     : "The terms do NOT add up to the rendered pixel: please report this.");
+  }
+
+  const Derivation& d_;
+  const Scene& scene_;
+  Page& page_;
+  std::vector<std::string> objects_, materials_;
+};
+
+}  // namespace
+
+std::string page_of(const Derivation& derivation, int sample, Page& page) {
+  Telling(derivation, page).tell(sample);
+  return page.finish();
+}
+
+}  // namespace lambent

@@ -1,0 +1,266 @@
+#include "film/layer_book.h"
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace lambent {
+namespace {
+
+constexpr int most_crypto_levels = 3;  // six ids a pixel, the usual number
+// Z, N, P, albedo, UV
+constexpr const char* data_names[] = {"Z",   "N.X",      "N.Y",      "N.Z",      "P.X",  "P.Y",
+                                      "P.Z", "albedo.R", "albedo.G", "albedo.B", "UV.U", "UV.V"};
+constexpr int data_count = int(std::size(data_names)), first_albedo = 7;
+
+std::string hex(std::uint32_t number) {
+  std::string text(8, '0');
+  for (int i = 7; i >= 0; --i, number >>= 4) text[std::size_t(i)] = "0123456789abcdef"[number & 15];
+  return text;
+}
+
+std::string json_quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\', result += c;
+    else if (static_cast<unsigned char>(c) < 0x20) result += "\\u00" + hex(std::uint32_t(c)).substr(6);
+    else result += c;
+  }
+  return result + '"';
+}
+
+void add_share(PixelHits::Shares& shares, std::int32_t index) {
+  for (auto& [known, samples] : shares)
+    if (known == index) return void(++samples);
+  shares.emplace_back(index, 1);
+}
+
+std::vector<std::string> made_unique(std::vector<std::string> names) {
+  std::set<std::string> taken(names.begin(), names.end());
+  std::map<std::string, int> seen;
+  for (std::string& name : names) {
+    if (++seen[name] == 1) continue;
+    int number = seen[name];
+    std::string other;
+    do other = name + " " + std::to_string(number++);
+    while (!taken.insert(other).second);
+    name = other;
+  }
+  return names;
+}
+
+}  // namespace
+
+std::uint32_t murmur3(const std::string& text) {
+  const auto mix = [](std::uint32_t k) { return std::rotl(k * 0xcc9e2d51u, 15) * 0x1b873593u; };
+  std::uint32_t h = 0;
+  const std::size_t whole = text.size() / 4 * 4;
+  for (std::size_t i = 0; i < whole; i += 4) {
+    std::uint32_t k = 0;
+    for (std::size_t b = 0; b < 4; ++b)
+      k |= std::uint32_t(static_cast<unsigned char>(text[i + b])) << (8 * b);
+    h = std::rotl(h ^ mix(k), 13) * 5 + 0xe6546b64u;
+  }
+  std::uint32_t rest = 0;
+  for (std::size_t i = text.size(); i > whole; --i)
+    rest = rest << 8 | static_cast<unsigned char>(text[i - 1]);
+  if (whole < text.size()) h ^= mix(rest);
+  h ^= std::uint32_t(text.size());
+  h = (h ^ h >> 16) * 0x85ebca6bu;
+  h = (h ^ h >> 13) * 0xc2b2ae35u;
+  return h ^ h >> 16;
+}
+
+std::string layer_part(const std::string& name) {
+  std::string result = name;
+  for (char& c : result)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '_' && !(c & 0x80)) c = '_';
+  return result;
+}
+
+float cryptomatte_id(const std::string& name) {
+  std::uint32_t bits = murmur3(name);
+  const std::uint32_t exponent = bits >> 23 & 255;
+  if (exponent == 0 || exponent == 255) bits ^= 1u << 23;
+  return std::bit_cast<float>(bits);
+}
+
+void PixelHits::clear() {
+  central = {};
+  std::fill_n(albedo, color_channels, 0.0);
+  objects.clear(), materials.clear();
+  samples = 0;
+}
+
+void PixelHits::add(const FirstHit& hit, double distance) {
+  if (samples++ == 0 || distance < nearest_) nearest_ = distance, central = hit;
+  if (hit.object < 0) return;
+  for (int c = 0; c < color_channels; ++c) albedo[c] += hit.albedo[c];
+  add_share(objects, hit.object);
+  add_share(materials, hit.material);
+}
+
+void apportion(const double* layers, int count, float total, float* floats) {
+  if (!(total > 0) || !std::isfinite(total)) {
+    for (int i = 0; i < count; ++i) floats[i] = total == 0 ? 0.0f : float(layers[i]);
+    return;
+  }
+  int exponent = 0;
+  std::frexp(total, &exponent);
+  const double u = std::ldexp(
+      1.0, std::max(exponent - std::numeric_limits<float>::digits,
+                    std::numeric_limits<float>::min_exponent - std::numeric_limits<float>::digits));
+  double missing = total / u;  // all in units of u: whole numbers below 2^24, which no sum rounds
+  for (int i = 0; i < count; ++i) {
+    const double whole = std::nearbyint(layers[i] / u);
+    floats[i] = float(whole);
+    missing -= whole;
+  }
+  while (missing != 0) {
+    const double step = missing > 0 ? 1 : -1;
+    int best = -1;
+    double most = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < count; ++i) {
+      if (!(layers[i] > 0) || (step < 0 && floats[i] < 1)) continue;
+      const double short_by = step * (layers[i] / u - floats[i]);
+      if (short_by > most) most = short_by, best = i;
+    }
+    if (best < 0) break;
+    floats[best] = float(floats[best] + step);
+    missing -= step;
+  }
+  for (int i = 0; i < count; ++i) floats[i] = float(floats[i] * u);
+}
+
+std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light>& lights) {
+  const int term = layer % plan.per_way();
+  const Way way = plan.way_of(layer);
+  std::string name = way == Way::direct ? "" : way == Way::reflection ? "reflection." : "refraction.";
+  if (term == LayerPlan::ambient) return name + "ambient";
+  if (term == LayerPlan::emission) return name + "emission";
+  if (term == LayerPlan::background) return name + "background";
+  const int light = (term - LayerPlan::first_light) / 2;
+  return name + "light." + layer_part(lights[std::size_t(light)].name) +
+         (term == LayerPlan::diffuse(light) ? ".diffuse" : ".specular");
+}
+
+std::vector<std::string> object_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects)
+    names.push_back(object.name.empty() ? scene.shapes[object.shape].name : object.name);
+  return made_unique(std::move(names));
+}
+std::vector<std::string> material_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials)
+    names.push_back(material.name.empty() ? "material" : material.name);
+  return made_unique(std::move(names));
+}
+
+LayerBook::LayerBook(const Scene& scene, const LayerPlan& plan, int samples)
+    : plan_(plan),
+      crypto_levels_(std::clamp((samples + 1) / 2, 1, most_crypto_levels)),
+      channels_{"R", "G", "B"} {
+  std::vector<std::string> names;
+  for (int layer = 0; layer < plan_.count(); ++layer) names.push_back(layer_name(plan_, layer, scene.lights));
+  std::string list;
+  for (const std::string& name : made_unique(std::move(names))) {
+    for (const char* channel : {".R", ".G", ".B"}) channels_.push_back(name + channel);
+    list += (list.empty() ? "" : " ") + name;
+  }
+  metadata_.emplace_back("lambent:layers", list);
+  channels_.insert(channels_.end(), std::begin(data_names), std::end(data_names));
+  for (const std::string& name : object_names(scene)) object_ids_.push_back(cryptomatte_id(name));
+  for (const std::string& name : material_names(scene)) material_ids_.push_back(cryptomatte_id(name));
+  add_cryptomatte("CryptoObject", object_names(scene));
+  add_cryptomatte("CryptoMaterial", material_names(scene));
+}
+
+void LayerBook::add_cryptomatte(const std::string& name, const std::vector<std::string>& names) {
+  for (int level = 0; level < crypto_levels_; ++level)
+    for (const char* channel : {".R", ".G", ".B", ".A"})
+      channels_.push_back(name + "0" + std::to_string(level) + channel);
+  std::string manifest = "{";
+  for (const std::string& one : names)
+    manifest += (manifest.size() > 1 ? "," : "") + json_quoted(one) + ":\"" +
+                hex(std::bit_cast<std::uint32_t>(cryptomatte_id(one))) + '"';
+  const std::string key = "cryptomatte/" + hex(murmur3(name)).substr(0, 7) + "/";
+  metadata_.emplace_back(key + "name", name);
+  metadata_.emplace_back(key + "hash", "MurmurHash3_32");
+  metadata_.emplace_back(key + "conversion", "uint32_to_float32");
+  metadata_.emplace_back(key + "manifest", manifest + "}");
+}
+
+void LayerBook::write_shares(std::vector<std::pair<float, double>> shares, float* to) const {
+  std::stable_sort(shares.begin(), shares.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  const std::size_t room = std::size_t(crypto_levels_) * 2;
+  std::fill_n(to, room * 2, 0.0f);
+  for (std::size_t i = 0; i < std::min(shares.size(), room); ++i)
+    to[2 * i] = shares[i].first, to[2 * i + 1] = float(shares[i].second);
+}
+
+void LayerBook::write(const double* sums, double samples, const PixelHits& hits, float* pixel) const {
+  const int count = plan_.count();
+  std::vector<double> layers(static_cast<std::size_t>(count));
+  std::vector<float> floats(static_cast<std::size_t>(count));
+  float* to = pixel + color_channels;
+  for (int c = 0; c < color_channels; ++c) {
+    for (int i = 0; i < count; ++i) layers[std::size_t(i)] = sums[i * color_channels + c] / samples;
+    apportion(layers.data(), count, pixel[c], floats.data());
+    for (int i = 0; i < count; ++i) to[i * color_channels + c] = floats[std::size_t(i)];
+  }
+  to += count * color_channels;
+  const FirstHit& hit = hits.central;
+  *to++ = hit.object < 0 ? std::numeric_limits<float>::infinity() : hit.R;
+  for (const float n : hit.N) *to++ = n;
+  for (const float p : hit.P) *to++ = p;
+  for (const double a : hits.albedo) *to++ = float(a / hits.samples);
+  for (const float t : hit.uv) *to++ = t;
+  const auto as_ids = [&](const PixelHits::Shares& shares, const std::vector<float>& ids) {
+    std::vector<std::pair<float, double>> result;
+    for (const auto& [index, met] : shares)
+      result.emplace_back(ids[std::size_t(index)], double(met) / hits.samples);
+    write_shares(std::move(result), to);
+    to += crypto_levels_ * 4;
+  };
+  as_ids(hits.objects, object_ids_);
+  as_ids(hits.materials, material_ids_);
+}
+
+void LayerBook::merge(const float* const corners[4], float* pixel) const {
+  const auto mean = [&](std::size_t channel) {
+    return (double(corners[0][channel]) + corners[1][channel] + corners[2][channel] + corners[3][channel]) /
+           4;
+  };
+  const int count = plan_.count();
+  std::vector<double> layers(static_cast<std::size_t>(count));
+  std::vector<float> floats(static_cast<std::size_t>(count));
+  for (int c = 0; c < color_channels; ++c) {
+    for (int i = 0; i < count; ++i) layers[std::size_t(i)] = mean(std::size_t((i + 1) * color_channels + c));
+    apportion(layers.data(), count, pixel[c], floats.data());
+    for (int i = 0; i < count; ++i) pixel[(i + 1) * color_channels + c] = floats[std::size_t(i)];
+  }
+  const std::size_t data = std::size_t(count + 1) * color_channels;
+  for (std::size_t i = data; i < data + data_count; ++i)
+    pixel[i] =
+        i >= data + first_albedo && i < data + first_albedo + color_channels ? float(mean(i)) : corners[0][i];
+  for (std::size_t at = data + data_count; at < channels_.size(); at += std::size_t(crypto_levels_) * 4) {
+    std::vector<std::pair<float, double>> shares;
+    for (int corner = 0; corner < 4; ++corner) {
+      const float id = corners[corner][at], covered = corners[corner][at + 1] / 4;
+      if (covered == 0) continue;
+      const auto known =
+          std::find_if(shares.begin(), shares.end(), [&](const auto& share) { return share.first == id; });
+      if (known == shares.end()) shares.emplace_back(id, covered);
+      else known->second += covered;
+    }
+    write_shares(std::move(shares), pixel + at);
+  }
+}
+
+}  // namespace lambent

@@ -1,0 +1,85 @@
+#pragma once
+// The channels that a picture with layers has beside R, G and B, and how a pixel's values for them are made.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "film/layers.h"
+#include "lambent/image.h"
+#include "scene/scene.h"
+
+namespace lambent {
+
+/// What the samples of one pixel have met.
+class PixelHits {
+ public:
+  void clear();
+  /// `distance`: how far the sample lies from the pixel's centre.
+  void add(const FirstHit& hit, double distance);
+
+  using Shares = std::vector<std::pair<std::int32_t, std::uint32_t>>;  ///< Index, and how many samples.
+  FirstHit central;                    ///< Of the sample nearest the centre; of equals, the first.
+  double albedo[color_channels] = {};  ///< Sums.
+  Shares objects, materials;           ///< In the order in which they were met.
+  std::uint32_t samples = 0;
+
+ private:
+  double nearest_ = 0;
+};
+
+/// Channels, in this order: for each layer R, G, B; then Z, N, P, albedo, UV; then Cryptomatte's. What they
+/// mean is in docs/layers.md.
+class LayerBook {
+ public:
+  /// `samples`: the most that a pixel may get.
+  LayerBook(const Scene& scene, const LayerPlan& plan, int samples);
+
+  const LayerPlan& plan() const { return plan_; }
+  /// Names, from R, G, B on.
+  const std::vector<std::string>& channels() const { return channels_; }
+  /// Cryptomatte's names and manifests; which light and what each layer is.
+  const Metadata& metadata() const { return metadata_; }
+
+  /// Fills a pixel's channels after R, G, B, which must be there. The layers add up to these exactly
+  /// (`apportion`).
+  ///   sums  plan().count() * color_channels sums over `samples` samples
+  void write(const double* sums, double samples, const PixelHits& hits, float* pixel) const;
+  /// A pixel that is the mean of four others, which `write` has made of one sample each.
+  void merge(const float* const corners[4], float* pixel) const;
+
+ private:
+  void add_cryptomatte(const std::string& name, const std::vector<std::string>& names);
+  void write_shares(std::vector<std::pair<float, double>> shares, float* to) const;
+
+  LayerPlan plan_;
+  int crypto_levels_;  ///< Each holds two ids and their coverage.
+  std::vector<std::string> channels_;
+  Metadata metadata_;
+  std::vector<float> object_ids_, material_ids_;
+};
+
+/// A name as it stands in a layer's: what is not a letter, a digit, a dash or an underscore would take the
+/// name of a channel apart, and is an underscore there.
+std::string layer_part(const std::string& name);
+/// The name of a layer: "light.key.diffuse", "reflection.ambient".
+std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light>& lights);
+/// What people call the scene's objects and materials: their names, or kind and number where they have none;
+/// no two alike.
+std::vector<std::string> object_names(const Scene& scene);
+std::vector<std::string> material_names(const Scene& scene);
+
+/// Makes floats of the layers of one channel that add up to `total` exactly: in any order, in float or
+/// double. All become whole multiples of total's last place, u = ulp(total), so that no sum of them needs
+/// rounding; each by the nearest, and what is then missing or too much goes, u by u, to those that were
+/// rounded most. So a layer is off by u at most, 2^-23 of the pixel's own brightness. Layers and total must
+/// not be negative.
+void apportion(const double* layers, int count, float total, float* floats);
+
+/// MurmurHash3 (Austin Appleby, public domain), 32 bits with seed 0, which Cryptomatte prescribes.
+std::uint32_t murmur3(const std::string& text);
+/// The float by which Cryptomatte stores a hash: its bits, with an exponent that is neither zero nor
+/// infinite.
+float cryptomatte_id(const std::string& name);
+
+}  // namespace lambent
