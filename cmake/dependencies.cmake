@@ -13,6 +13,10 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)
 find_package(nlohmann_json 3.11 CONFIG REQUIRED)
 find_package(Threads REQUIRED)
+# The labels of contact sheets: stb_truetype.h draws the letters of DejaVu Sans.
+find_path(LAMBENT_STB_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
+find_file(LAMBENT_FONT DejaVuSans.ttf REQUIRED
+  PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/dejavu-sans-fonts /usr/share/fonts/TTF /usr/share/fonts/dejavu)
 if(LAMBENT_TESTS)
   find_package(GTest CONFIG REQUIRED)
   find_package(rapidcheck CONFIG REQUIRED)

@@ -21,6 +21,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lambent-config-version.cm
 install(FILES ${PROJECT_BINARY_DIR}/lambent-config.cmake ${PROJECT_BINARY_DIR}/lambent-config-version.cmake
   DESTINATION ${package_dir})
 
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# LICENSE.DejaVu goes wherever the font goes, and the library has it inside.
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/LICENSE.DejaVu ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # For editors: completes scene files and marks their errors.
 install(FILES ${PROJECT_SOURCE_DIR}/docs/lambent.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/lambent)

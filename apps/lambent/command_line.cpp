@@ -88,6 +88,44 @@ struct Shorthands {
   std::vector<std::string> set;
 };
 
+void add_input(CLI::App* command, std::string& input) {
+  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .nff)")
+      ->required()
+      ->type_name("");
+}
+
+void add_samples(CLI::App* command, Shorthands& shorthands) {
+  const auto samples = [&](const std::string& text) {
+    int number = 0;
+    if (!read_number(text, number) || number < 1)
+      throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
+    shorthands.settings.emplace_back("image.samples", text);
+  };
+  command->add_option_function<std::string>("--samples", samples, "Rays through each pixel")->type_name("N");
+}
+
+void add_set(CLI::App* command, Shorthands& shorthands) {
+  command
+      ->add_option("--set", shorthands.set,
+                   "Set anything that the scene file can say:\npath.to.key=value; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_threads(CLI::App* command, int& threads) {
+  add_integer(command, "--threads", threads, 0, "Threads to work with (default 0: one per\nprocessor)");
+}
+
+void add_quiet(CLI::App* command, bool& quiet) {
+  command->add_flag("-q,--quiet", quiet, "Say nothing but errors");
+}
+
+Settings settings_of(const Shorthands& shorthands) {
+  Settings settings = shorthands.settings;
+  for (const std::string& setting : shorthands.set) settings.push_back(split_setting(setting));
+  return settings;
+}
+
 /// What may be said of the scene on the command line, of every command that renders.
 void add_scene_options(CLI::App* command, Shorthands& shorthands) {
   const auto shorthand = [&shorthands](const std::string& key, std::string (*as_yaml)(const std::string&)) {
@@ -99,23 +137,13 @@ void add_scene_options(CLI::App* command, Shorthands& shorthands) {
       ->add_option_function<std::string>("--size", shorthand("image.size", size_as_yaml),
                                          "Width and height in pixels")
       ->type_name("WxH");
-  const auto samples = [&shorthands](const std::string& text) {
-    int number = 0;
-    if (!read_number(text, number) || number < 1)
-      throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
-    shorthands.settings.emplace_back("image.samples", text);
-  };
-  command->add_option_function<std::string>("--samples", samples, "Rays through each pixel")->type_name("N");
+  add_samples(command, shorthands);
   command
       ->add_option_function<std::string>(
           "--model", shorthand("illumination.model", [](const std::string& text) { return text; }),
           "Illumination model ('lambent list models')")
       ->type_name("NAME");
-  command
-      ->add_option("--set", shorthands.set,
-                   "Set anything that the scene file can say:\npath.to.key=value; may be repeated")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+  add_set(command, shorthands);
 }
 
 CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& shorthands) {
@@ -124,9 +152,7 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
                   "  lambent render scene.yaml\n"
                   "  lambent render bunny.obj -o bunny.png -o bunny.exr --size 800x600\n"
                   "  lambent render scene.yaml --samples 16 --set lights.key.point.intensity=4");
-  command->add_option("INPUT", render.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
-      ->required()
-      ->type_name("");
+  add_input(command, render.input);
   command
       ->add_option("-o,--output", render.outputs,
                    "Picture to write, .png or .exr; may be repeated\n(default: INPUT's name with .png, or "
@@ -134,8 +160,7 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_scene_options(command, shorthands);
-  add_integer(command, "--threads", render.threads, 0,
-              "Threads to work with (default 0: one per\nprocessor)");
+  add_threads(command, render.threads);
   add_integer(command, "--tile", render.tile, 1,
               "Width of the tiles that threads take, in\npixels (default 32)");
   command
@@ -154,7 +179,56 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
                    "Write as JSON what went where: rays by kind,\nseconds by stage, bytes by what they "
                    "hold;\n- is standard output")
       ->type_name("FILE");
-  command->add_flag("-q,--quiet", render.quiet, "Say nothing but errors");
+  add_quiet(command, render.quiet);
+  return command;
+}
+
+/// "phong,conventional" as its names.
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
+    end = std::min(text.find(',', begin), text.size());
+    names.push_back(text.substr(begin, end - begin));
+    if (names.back().empty())
+      throw usage_error(fmt::format("--models wants names with commas between them, not '{}'", text),
+                        "for example --models conventional,phong");
+  }
+  return names;
+}
+
+CLI::App* add_compare(CLI::App& program, CompareCommand& compare, Shorthands& shorthands) {
+  CLI::App* command = add_command(program, "compare", "Show a scene under several models, side by side",
+                                  "  lambent compare scene.yaml\n"
+                                  "  lambent compare scene.yaml --models conventional,phong -o sheet.png\n"
+                                  "  lambent compare bunny.obj --difference --size 320x240 --samples 4");
+  add_input(command, compare.input);
+  command
+      ->add_option("-o,--output", compare.outputs,
+                   "Sheet to write, .png or .exr; may be repeated\n(default: INPUT's name with -compare.png, "
+                   "here)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option_function<std::string>(
+          "--models", [&](const std::string& text) { compare.models = names_in(text); },
+          "Illumination models, with commas between\nthem (default: all; 'lambent list models')")
+      ->type_name("NAMES");
+  command
+      ->add_option_function<std::string>(
+          "--size", [&](const std::string& text) { compare.size = size_as_yaml(text); },
+          "Width and height of each picture, in pixels\n(default: the scene's, at most 480 wide)")
+      ->type_name("WxH");
+  add_samples(command, shorthands);
+  add_set(command, shorthands);
+  add_integer(command, "--columns", compare.columns, 1,
+              "Pictures side by side (default: so many that\nthe sheet is near 16:9)");
+  command->add_flag("--difference", compare.difference,
+                    "Below each picture, where it is brighter than\nthe first one and where darker; prints a "
+                    "table");
+  command->add_flag("--own-attenuation", compare.own_attenuation,
+                    "Let light fade as each model's equation says,\nnot as the scene does");
+  add_threads(command, compare.threads);
+  add_quiet(command, compare.quiet);
   return command;
 }
 
@@ -221,9 +295,7 @@ CLI::App* add_explain(CLI::App& program, ExplainCommand& explain, Shorthands& sh
                                   "  lambent explain scene.yaml --pixel 320,180\n"
                                   "  lambent explain scene.yaml --pixel 320,180 --model blinn_phong\n"
                                   "  lambent explain scene.yaml --pixel 320,180 --format latex -o pixel.tex");
-  command->add_option("INPUT", explain.input, "A scene (.yaml, .json) or a model (.obj, .nff)")
-      ->required()
-      ->type_name("");
+  add_input(command, explain.input);
   const auto pixel = [&explain](const std::string& text) {
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos || !read_number(std::string_view(text).substr(0, comma), explain.x) ||
@@ -277,7 +349,7 @@ CLI::App* add_relight(CLI::App& program, RelightCommand& relight) {
   factors("--material", relight.materials,
           "Likewise a material's term, as\nNAME.ambient, NAME.diffuse, NAME.specular");
   add_bits(command, relight.bits);
-  command->add_flag("-q,--quiet", relight.quiet, "Say nothing but errors");
+  add_quiet(command, relight.quiet);
   return command;
 }
 
@@ -336,6 +408,7 @@ InputError refused(const CLI::App& program, const CLI::ParseError& error) {
 
 Command parse_command_line(int argc, const char* const* argv) {
   RenderCommand render;
+  CompareCommand compare;
   Shorthands shorthands;
   CheckCommand check;
   InfoCommand info;
@@ -364,6 +437,7 @@ Command parse_command_line(int argc, const char* const* argv) {
       "'lambent COMMAND --help' says more about one command.\n"
       "Exit codes: 0 done, 1 failed, 2 bad input or usage.");
   const CLI::App* is_render = add_render(program, render, shorthands);
+  const CLI::App* is_compare = add_compare(program, compare, shorthands);
   const CLI::App* is_check = add_check(program, check);
   const CLI::App* is_info = add_info(program, info);
   const CLI::App* is_list = add_list(program, list);
@@ -383,18 +457,17 @@ Command parse_command_line(int argc, const char* const* argv) {
     throw refused(program, error);
   }
 
-  const auto settings = [&] {
-    Settings all = shorthands.settings;
-    for (const std::string& setting : shorthands.set) all.push_back(split_setting(setting));
-    return all;
-  };
   if (*is_render) {
-    render.set = settings();
+    render.set = settings_of(shorthands);
     return render;
   }
   if (*is_explain) {
-    explain.set = settings();
+    explain.set = settings_of(shorthands);
     return explain;
+  }
+  if (*is_compare) {
+    compare.set = settings_of(shorthands);
+    return compare;
   }
   if (*is_check) return check;
   if (*is_info) return info;

@@ -27,6 +27,19 @@ struct RenderCommand {
   bool quiet = false;
 };
 
+struct CompareCommand {
+  std::string input;
+  std::vector<std::string> models;   ///< Empty: all that there are.
+  std::vector<std::string> outputs;  ///< Empty: the input's name with -compare.png, in the current folder.
+  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
+  std::string size;  ///< Of each picture, as the scene file says it; empty: the scene's, or smaller.
+  int threads = 0;
+  int columns = 0;  ///< 0: chosen to suit.
+  bool difference = false;
+  bool own_attenuation = false;  ///< Each model's, whatever the scene says.
+  bool quiet = false;
+};
+
 struct CheckCommand {
   std::vector<std::string> inputs;
 };
@@ -78,8 +91,8 @@ struct ShowText {
   std::string text;
 };
 
-using Command = std::variant<ShowText, RenderCommand, CheckCommand, InfoCommand, ListCommand, DiffCommand,
-                             ConvertCommand, ExplainCommand, RelightCommand>;
+using Command = std::variant<ShowText, RenderCommand, CompareCommand, CheckCommand, InfoCommand, ListCommand,
+                             DiffCommand, ConvertCommand, ExplainCommand, RelightCommand>;
 
 /// Throws InputError where the command line is wrong.
 Command parse_command_line(int argc, const char* const* argv);
@@ -87,6 +100,7 @@ Command parse_command_line(int argc, const char* const* argv);
 // Each throws InputError or Failure where it cannot go on; main says so and chooses the exit code.
 ExitCode run(const ShowText& command);
 ExitCode run(const RenderCommand& command);
+ExitCode run(const CompareCommand& command);
 ExitCode run(const CheckCommand& command);
 ExitCode run(const InfoCommand& command);
 ExitCode run(const ListCommand& command);

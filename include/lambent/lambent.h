@@ -155,6 +155,8 @@ struct ParameterInfo {
 struct Entry {
   std::string name, title, equation, source;  ///< equation and source may be empty.
   std::vector<ParameterInfo> parameters;
+  std::string attenuation,
+      ambient_attenuation;  ///< Of models: how light fades where the scene does not say. Otherwise empty.
 };
 struct Topic {
   std::string name;  ///< "models", "lights", "shapes", "materials", "camera", "image", "film",

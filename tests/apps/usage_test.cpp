@@ -12,7 +12,7 @@
 namespace lambent::test {
 namespace {
 
-const std::vector<std::string> commands{"render", "check", "info", "list", "diff", "convert"};
+const std::vector<std::string> commands{"render", "compare", "check", "info", "list", "diff", "convert"};
 
 struct Mistake {
   std::vector<std::string> words;
@@ -28,7 +28,8 @@ TEST(Usage, MistakesAreNamedWithTheNearestRemedy) {
       {{"scene.yaml"},
        "error: unknown command 'scene.yaml'\n    hint: did you mean 'lambent render scene.yaml'?\n"},
       {{"frobnicate"},
-       "error: unknown command 'frobnicate'\n    hint: known are render, check, info, list, diff, convert, explain, relight\n"},
+       "error: unknown command 'frobnicate'\n    hint: known are render, compare, check, info, list, diff, "
+       "convert, explain, relight\n"},
       {{"--verison"}, "error: unknown option '--verison'\n    hint: did you mean '--version'?\n"},
       {{"render"}, "error: INPUT is missing\n" + render_help},
       {{"render", "--smaples", "4"},

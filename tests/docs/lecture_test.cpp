@@ -98,6 +98,25 @@ TEST(Lecture, PicturesAreWhatTheCommandsMake) {
   EXPECT_GT(pictures, 0);
 }
 
+TEST(Readme, ShowsTheSheetThatItsCommandMakes) {
+  const std::string begin = "\n    build/release/lambent compare ";
+  const std::string page = test::read_text(root + "/README.md");
+  const std::size_t at = page.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  const std::string options =
+      page.substr(at + begin.size(), page.find('\n', at + begin.size()) - at - begin.size());
+  const test::TemporaryDirectory folder;
+  const std::string sheet = folder.file("sheet.png");
+  const auto run = test::run_shell("exec \"$LAMBENT\" compare " + options + " -q -o " + sheet, root);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Difference difference =
+      compare_images(read_image(root + "/docs/pictures/compare.png").image, read_image(sheet).image);
+  const int pixels = difference.picture.width * difference.picture.height;
+  // Letters take up 2 % of the sheet, and another version of the font may draw their edges otherwise.
+  EXPECT_LT(difference.differing_pixels, std::size_t(pixels / 100))
+      << "docs/pictures/compare.png is old: run script/pictures compare";
+}
+
 TEST(Pages, PointAtWhatIsThere) {
   for (const char* page : {"README.md", "HACKING.md", "CONTRIBUTING.md", "docs/lecture.md"}) {
     const auto folder = std::filesystem::path(root + "/" + page).parent_path();
