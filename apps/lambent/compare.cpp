@@ -9,6 +9,7 @@
 #include "console.h"
 #include "files.h"
 #include "interrupt.h"
+#include "lambent/explain.h"
 #include "lambent/lambent.h"
 #include "lambent/sheet.h"
 #include "nearest.h"
@@ -220,6 +221,24 @@ std::string table_of(const CompareCommand& command, const std::vector<Rendered>&
   return text;
 }
 
+/// The pixel of the largest difference of all, derived under both equations.
+std::string derivation_of_largest(const CompareCommand& command, const std::vector<Rendered>& pictures,
+                                  const std::vector<SignedDifference>& differences, const std::string& size) {
+  std::size_t most = 0;
+  for (std::size_t i = 1; i < differences.size(); ++i)
+    if (std::abs(differences[i].largest) > std::abs(differences[most].largest)) most = i;
+  const SignedDifference& at = differences[most];
+  if (at.largest == 0) return "";
+  std::string text;
+  for (const std::size_t i : {std::size_t(0), most + 1}) {
+    const Entry& model = pictures[i].model;
+    const ScenePtr scene = load_scene(command.input, {settings_for(command, model, size)});
+    text += fmt::format("\n---- {} at {},{}\n\n", model.name, at.x, at.y);
+    text += explanation(explain(scene, at.x, at.y));
+  }
+  return text;
+}
+
 }  // namespace
 
 ExitCode run(const CompareCommand& command) {
@@ -301,7 +320,9 @@ ExitCode run(const CompareCommand& command) {
   metadata.emplace_back("lambent:models", fmt::format("{}", fmt::join(names, ", ")));
   for (const std::string& output : outputs) write_image(output, sheet.image, metadata, {8, encoded});
 
-  if (command.difference) print(table_of(command, pictures, differences));
+  if (command.difference)
+    print(table_of(command, pictures, differences) +
+          derivation_of_largest(command, pictures, differences, size));
   if (!command.quiet) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     print_error(fmt::format("{}: {} x {}, {} of {} x {}, {}\n", fmt::join(outputs, ", "), sheet.image.width,
