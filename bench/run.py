@@ -273,6 +273,18 @@ def memory(bench, lambent, folder):
     return {"whole_process": lambent.render(knot)["peak"], "lambent": only["lambent"], "embree": only["embree"]}
 
 
+def layers(bench, lambent, folder, quick):
+    """What keeping the colours' parts apart costs: render times, the files' encoding left out."""
+    result = {}
+    for scene in ("flake", "flake_mirror", "knot"):
+        bench.say(f"layers, {scene}")
+        path = os.path.join(folder, scene + ".yaml")
+        exr = os.path.join(lambent.scratch, "layers.exr")
+        result[scene] = [{"without": lambent.render(path)["render"],
+                          "with": lambent.render(path, "--layers", "-o", exr)["render"]} for _ in range(2 if quick else 7)]
+    return result
+
+
 def startup(bench, lambent, folder):
     bench.say("one sphere, whole process")
     out = os.path.join(lambent.scratch, "one_sphere.png")
@@ -301,6 +313,9 @@ def machine(build):
     }
 
 
+PARTS = ("startup", "cases", "layers", "memory", "threads", "others", "curves", "kernels")
+
+
 class Bench:
     def __init__(self, quick):
         self.cores = len(os.sched_getaffinity(0))
@@ -318,6 +333,7 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--no-peers", action="store_true")
     parser.add_argument("--no-curves", action="store_true")
+    parser.add_argument("--again", action="append", choices=PARTS)
     parser.add_argument("-o", metavar="DIR", dest="out")
     parser.add_argument("--build", help=argparse.SUPPRESS)
     parser.add_argument("--check-arguments", action="store_true", help=argparse.SUPPRESS)
@@ -346,23 +362,32 @@ def main():
     lambent = Lambent(options.build, scratch, bench.cores)
     results = {"machine": machine(options.build), "quick": options.quick,
                "peers": {peer.name: peer.version() for peer in peers}}
-    results["has_layers"] = "--layers" in run([lambent.program, "render", "--help"])["text"]
     path = os.path.join(options.build, "results.json")
 
     def keep(name, measured):
         """After each part, so that a run that is broken off has not been for nothing."""
         results[name] = measured
-        results["minutes"] = (time.monotonic() - bench.start) / 60
+        if not options.again:
+            results["minutes"] = (time.monotonic() - bench.start) / 60
         with open(path, "w", encoding="utf-8") as file:
             json.dump(results, file, indent=1)
 
-    keep("startup", startup(bench, lambent, folder))
-    keep("cases", compare(bench, lambent, peers, folder, options.quick))
-    keep("memory", memory(bench, lambent, folder))
-    keep("threads", threads_curve(bench, lambent, folder, options.quick))
-    keep("others", others_scenes(bench, lambent, options.quick))
-    keep("curves", None if options.no_curves else curves(bench, lambent, folder, options.quick))
-    keep("kernels", kernels(bench, lambent, options.quick))
+    measure = {
+        "startup": lambda: startup(bench, lambent, folder),
+        "cases": lambda: compare(bench, lambent, peers, folder, options.quick),
+        "layers": lambda: layers(bench, lambent, folder, options.quick),
+        "memory": lambda: memory(bench, lambent, folder),
+        "threads": lambda: threads_curve(bench, lambent, folder, options.quick),
+        "others": lambda: others_scenes(bench, lambent, options.quick),
+        "curves": lambda: None if options.no_curves else curves(bench, lambent, folder, options.quick),
+        "kernels": lambda: kernels(bench, lambent, options.quick),
+    }
+    if options.again:
+        with open(path, encoding="utf-8") as file:
+            results = json.load(file)
+    for name in PARTS:
+        if not options.again or name in options.again:
+            keep(name, measure[name]())
     out = options.out or (os.path.join(options.build, "report") if options.quick else os.path.join(ROOT, "docs"))
     report.write(results, out, os.path.join(HERE, "notes.md"))
     bench.say(f"{path}, {os.path.join(out, 'benchmarks.md')}")

@@ -379,11 +379,11 @@ void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far,
   for (std::uint32_t p = 0; p < world.plane_count; ++p)
     for (int i = 0; i < count; ++i) ask_primitive(world, world.planes[p], -1, rays[i], of_packet(i));
   const auto four_rays = [&] {
-    if constexpr (lanes_of < F >> 1) return 0;
+    if constexpr (lanes_of<F> != 1) return 0;
     else return QueryRay<Pack<float, 4>>(rays[0]);
   }();
   const auto ask = [&](const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray, int i) {
-    if constexpr (lanes_of < F >> 1) ask_leaf(world, leaf, instance, ray, of_packet(i));
+    if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, instance, ray, of_packet(i));
     else if (instance < 0) ask_leaf(world, leaf, instance, ray, four_rays, of_packet(i));
     else ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), of_packet(i));
   };

@@ -159,7 +159,13 @@ TEST_F(Compare, TheDifferenceIsMeasuredAndItsPixelNamed) {
       "lights.key.point.intensity=3\n",
       difference.largest, (std::to_string(difference.x) + "," + std::to_string(difference.y)).c_str(),
       difference.mean, difference.x, difference.y);
-  EXPECT_EQ(good.out, expected);
+  EXPECT_EQ(good.out.substr(0, std::string(expected).size()), expected);
+  // Then that pixel, derived under both equations.
+  const std::string derived = good.out.substr(std::string(expected).size());
+  const std::string at = std::to_string(difference.x) + "," + std::to_string(difference.y);
+  for (const char* model : {"conventional", "phong"})
+    EXPECT_NE(derived.find(std::string("\n---- ") + model + " at " + at + "\n"), std::string::npos);
+  EXPECT_NE(derived.find("add up to the rendered pixel, bit for bit"), std::string::npos);
   const Image colors = difference_picture(difference.values, color_bar_limit(difference.largest));
   EXPECT_EQ(found_in(picture("sheet.exr"), colors), 1) << "the difference is not in the sheet";
 }

@@ -118,7 +118,7 @@ TEST(Readme, ShowsTheSheetThatItsCommandMakes) {
 }
 
 TEST(Pages, PointAtWhatIsThere) {
-  for (const char* page : {"README.md", "HACKING.md", "CONTRIBUTING.md", "docs/lecture.md"}) {
+  for (const char* page : {"README.md", "HACKING.md", "CONTRIBUTING.md", "docs/lecture.md", "docs/layers.md", "docs/explain.md", "docs/benchmarks.md"}) {
     const auto folder = std::filesystem::path(root + "/" + page).parent_path();
     std::istringstream lines(test::read_text(root + "/" + page));
     std::string line;

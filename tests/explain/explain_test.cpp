@@ -15,6 +15,8 @@
 #include "integrators/prepare.h"
 #include "random_scene.h"
 #include "scene/scene.h"
+#include "scenefile/json_schema.h"
+#include "support.h"
 
 namespace lambent {
 namespace {
@@ -233,6 +235,18 @@ TEST(Explain, SaysWhatLightGoesThrough) {
   ASSERT_EQ(2u, light["on_the_way"].size());
   EXPECT_NEAR(2, light["on_the_way"][0]["distance"].get<double>(), 1e-5);
   EXPECT_NEAR(4, light["on_the_way"][1]["distance"].get<double>(), 1e-5);
+}
+
+TEST(Explain, TheJsonIsAsItsSchemaSays) {
+  const test::JsonSchema schema(
+      Json::parse(test::read_text(std::string(LAMBENT_SOURCE_DIR) + "/docs/explain.schema.json")));
+  for (unsigned seed = 500; seed < 540; ++seed) {
+    const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "2"));
+    Json json = Json::parse(explanation(explain(scene, 8, 6), {ExplainFormat::json, {}, false}));
+    EXPECT_TRUE(schema.accepts(json)) << json.dump(1);
+    json["samples"][0]["ray"]["something"] = 1;
+    EXPECT_FALSE(schema.accepts(json));
+  }
 }
 
 TEST(Explain, TextStaysWithin80ColumnsAndSaysThatItAddsUp) {

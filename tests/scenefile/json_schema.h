@@ -65,6 +65,10 @@ class JsonSchema {
   }
   bool holds(const std::string& keyword, const Json& argument, const Json& schema, const Json& value) const {
     if (keyword == "type") {
+      if (argument.is_array())
+        return std::any_of(argument.begin(), argument.end(),
+                           [&](const Json& one) { return holds(keyword, one, schema, value); });
+      if (argument == "null") return value.is_null();
       if (argument == "object") return value.is_object();
       if (argument == "array") return value.is_array();
       if (argument == "string") return value.is_string();
@@ -80,8 +84,10 @@ class JsonSchema {
     }
     if (keyword == "additionalProperties") {
       if (!value.is_object()) return true;
-      for (const auto& [name, one] : value.items())
-        if (!schema.at("properties").contains(name)) return false;
+      for (const auto& [name, one] : value.items()) {
+        if (schema.contains("properties") && schema["properties"].contains(name)) continue;
+        if (!argument.is_object() || !valid(argument, one)) return false;
+      }
       return true;
     }
     if (keyword == "required")
