@@ -23,8 +23,9 @@ inline std::string random_scene(unsigned seed, int width, int height, const std:
   const auto color = [&](double most) {
     return fmt::format("[{:.3f}, {:.3f}, {:.3f}]", number(0, most), number(0, most), number(0, most));
   };
-  const char* models[] = {"conventional", "attenuated", "phong", "blinn_phong", "blinn_phong_halfway"};
-  const auto model = [&] { return models[std::uniform_int_distribution<int>(0, 4)(random)]; };
+  const char* models[] = {"conventional", "attenuated", "phong",  "blinn_phong", "blinn_phong_halfway",
+                          "mtl",          "opengl",     "povray", "tachyon"};
+  const auto model = [&] { return models[std::uniform_int_distribution<int>(0, 8)(random)]; };
 
   std::string text = fmt::format(
       "lambent: 1\ncamera: {{eye: [{:.3f}, {:.3f}, 6], target: [0, 0, 0], fov: 40}}\n"

@@ -279,10 +279,14 @@ CLI::App* add_diff(CLI::App& program, DiffCommand& diff) {
 
 CLI::App* add_convert(CLI::App& program, ConvertCommand& convert) {
   CLI::App* command = add_command(
-      program, "convert", "Make a scene file of a model, or convert a picture",
-      "  lambent convert bunny.obj bunny.yaml\n  lambent convert picture.exr picture.png --bits 16");
-  command->add_option("FROM", convert.from, "A model, a .png or an .exr")->required()->type_name("");
-  command->add_option("TO", convert.to, "A .yaml for a model, else a .png or an .exr")
+      program, "convert", "Make a scene file of a model, a scene for another\nrenderer, or convert a picture",
+      "  lambent convert bunny.obj bunny.yaml\n  lambent convert scene.yaml scene.pov\n"
+      "  lambent convert picture.exr picture.png --bits 16");
+  command->add_option("FROM", convert.from, "A scene, a model, a .png or an .exr")->required()->type_name("");
+  command
+      ->add_option(
+          "TO", convert.to,
+          "A .yaml for a model; a .pov (POV-Ray) or .dat\n(Tachyon) for a scene; else a .png or an .exr")
       ->required()
       ->type_name("");
   command->add_flag("--force", convert.force, "Overwrite a scene file that is there already");

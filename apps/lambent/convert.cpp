@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t most_remarks = 50;
+
 /// The library's scene names the model as if it stood beside it. Name it as seen from the scene's folder.
 std::string naming_model_from(const fs::path& folder, const fs::path& model, std::string scene) {
   constexpr std::string_view before = "mesh: {file: ", after = "}}";
@@ -26,13 +28,27 @@ std::string naming_model_from(const fs::path& folder, const fs::path& model, std
                        name.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-void scene_from_model(const ConvertCommand& command) {
+/// Scenes are work of somebody's: they are not overwritten unasked.
+void must_be_free(const ConvertCommand& command) {
   std::error_code ignored;
   if (fs::exists(command.to, ignored) && !command.force)
     throw usage_error(fmt::format("'{}' is there already", command.to), "--force overwrites it");
   check_output(command.to);
+}
+
+void scene_from_model(const ConvertCommand& command) {
+  must_be_free(command);
   const fs::path folder = fs::absolute(command.to).parent_path();
   write_text_file(command.to, naming_model_from(folder, command.from, scene_text_of_model(command.from)));
+}
+
+void export_for_others(const ConvertCommand& command, ExportFormat format) {
+  must_be_free(command);
+  const ScenePtr scene = load_scene(command.from);
+  std::vector<Diagnostic> remarks = warnings(scene);
+  const std::string text = export_scene(scene, format, remarks);
+  report(remarks, most_remarks);
+  write_text_file(command.to, text);
 }
 
 }  // namespace
@@ -45,13 +61,17 @@ ExitCode run(const ConvertCommand& command) {
     write_image(command.to, picture.image, picture.metadata, {command.bits, true});
   } else if (!is_image_file(command.from) && (to == ".yaml" || to == ".yml")) {
     scene_from_model(command);
+  } else if (!is_image_file(command.from) && (to == ".pov" || to == ".dat")) {
+    export_for_others(command, to == ".pov" ? ExportFormat::povray : ExportFormat::tachyon);
   } else if (is_image_file(command.to)) {
     throw usage_error(fmt::format("'{}' is not a picture", command.from),
                       fmt::format("'lambent render {} -o {}' makes a picture of a scene or a model",
                                   command.from, command.to));
   } else {
-    throw usage_error(fmt::format("cannot make '{}' of '{}'", command.to, command.from),
-                      "a model becomes a scene (.yaml), a picture a picture (.png, .exr)");
+    throw usage_error(
+        fmt::format("cannot make '{}' of '{}'", command.to, command.from),
+        "a model becomes a scene (.yaml), a scene or a model a scene of POV-Ray (.pov) or Tachyon "
+        "(.dat), a picture a picture (.png, .exr)");
   }
   return done;
 }

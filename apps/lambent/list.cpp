@@ -29,11 +29,8 @@ Json as_json(const Entry& entry) {
                           {"required", parameter.required},
                           {"sentence", parameter.sentence}});
   }
-  return {{"name", entry.name},
-          {"title", entry.title},
-          {"equation", entry.equation},
-          {"source", entry.source},
-          {"parameters", std::move(parameters)}};
+  return {{"name", entry.name},     {"title", entry.title},     {"equation", entry.equation},
+          {"source", entry.source}, {"differs", entry.differs}, {"parameters", std::move(parameters)}};
 }
 
 Json as_json(const Topic& topic) {
@@ -97,6 +94,7 @@ std::string as_text(const Entry& entry, int width) {
   std::string text = row(entry.name, entry.title, 0, int(entry.name.size()), width);
   if (!entry.equation.empty()) text += wrapped(entry.equation, width, 4);
   if (!entry.source.empty()) text += wrapped("Source: " + entry.source, width, 4);
+  if (!entry.differs.empty()) text += wrapped("How it differs: " + entry.differs, width, 4);
   for (const ParameterInfo& parameter : entry.parameters) {
     text += row(parameter.name, facts(parameter), 2, widest(entry.parameters), width);
     text += wrapped(parameter.sentence, width, 2 + widest(entry.parameters) + 2);

@@ -46,6 +46,15 @@ ScenePtr parse_scene(std::string_view yaml, const std::string& name = "scene",
 /// The scene file that load_scene makes of a model file, as YAML text: a start for a scene of one's own.
 std::string scene_text_of_model(const std::string& path);
 
+/// Other renderers whose files we write.
+enum class ExportFormat {
+  povray,   ///< POV-Ray 3.7, .pov
+  tachyon,  ///< Tachyon 0.99, .dat
+};
+/// The scene as another renderer's text, so that it makes the same picture; instances are written out. What
+/// it cannot say is said in `remarks`, to which they are added.
+std::string export_scene(const ScenePtr& scene, ExportFormat format, std::vector<Diagnostic>& remarks);
+
 /// What was odd about the input, without being wrong.
 const std::vector<Diagnostic>& warnings(const ScenePtr& scene);
 
@@ -154,6 +163,7 @@ struct ParameterInfo {
 };
 struct Entry {
   std::string name, title, equation, source;  ///< equation and source may be empty.
+  std::string differs;                        ///< Of a model: how its convention differs from the lecture's.
   std::vector<ParameterInfo> parameters;
   std::string attenuation,
       ambient_attenuation;  ///< Of models: how light fades where the scene does not say. Otherwise empty.

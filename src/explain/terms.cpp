@@ -13,6 +13,8 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
   s.kd = color_symbol("Kd", material.diffuse);
   s.ks = color_symbol("Ks", material.specular);
   s.n = Traced::symbol("n", material.shininess);
+  s.outside = Traced::symbol("side", ray.hit.outside ? 1 : -1);
+  s.to_camera = vector_symbol("C", -camera_record(derivation.scene->camera).forward);
   for (int i = 0; i < max_model_parameters; ++i) {
     if (!model.parameters[i].name) {
       s.own[i] = Traced(0);
@@ -31,11 +33,13 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
 MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
   Formulas formulas;
   const Illumination& illumination = derivation.scene->illumination;
-  const Color<Traced> Ka = color_symbol("Ka", derivation.scene->materials[ray.hit.material].ambient),
-                      Ia = color_symbol("Ia", illumination.ambient);
-  const Traced faded = attenuate(derivation.fading[derivation.model_of(ray)].ambient,
-                                 Traced::symbol("R", ray.hit.R), Traced(illumination.minimum_distance));
-  return simplified(formulas, Ka * (Ia * faded));
+  const int model = derivation.model_of(ray);
+  const auto s = surface_symbols(derivation, ray);
+  const Traced faded = attenuate(derivation.fading[model].ambient, Traced::symbol("R", ray.hit.R),
+                                 Traced(illumination.minimum_distance));
+  const Color<Traced> Ia = color_symbol("Ia", illumination.ambient) * faded;
+  return with_model(ModelId(model),
+                    [&]<class Model>() { return simplified(formulas, ambient_term<Model>(s, Ia)); });
 }
 
 LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, int l) {
@@ -54,8 +58,11 @@ LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray
   }
   Formulas formulas;
   const auto s = surface_symbols(derivation, ray);
+  const Rgb Il = with_light(derivation.scene->lights[std::size_t(l)].light,
+                            [](const auto& one) { return brightest<double>(one); });
   const Arriving<Traced, Color<Traced>> arriving{vector_symbol("L", light.L),
-                                                 color_symbol("I", light.arriving)};
+                                                 color_symbol("I", light.arriving), color_symbol("Il", Il),
+                                                 Traced::symbol("fade", light.faded * share_of(light.I, Il))};
   with_model(ModelId(derivation.model_of(ray)), [&]<class Model>() {
     const auto terms = Model::evaluate(s, arriving);
     result.diffuse = simplified(formulas, terms.diffuse);

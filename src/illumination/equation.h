@@ -21,6 +21,12 @@ struct NoObserver {
 
 inline namespace LAMBENT_ISA {
 
+/// The ambient term: Ka Ia, where the model does not say otherwise.
+template <class Model, class F, class C> C ambient_term(const Surface<F, C>& s, const C& Ia) {
+  if constexpr (requires { Model::ambient(s, Ia); }) return Model::ambient(s, Ia);
+  else return s.ka * Ia;
+}
+
 /// The colour that the surface point s sends to where the ray came from.
 ///   Ia        the ambient light, already divided by R where the scene asks for it
 ///   arriving  l -> Arriving<F, C>: light l at this point, after attenuation and shadow
@@ -30,7 +36,7 @@ inline namespace LAMBENT_ISA {
 template <class Model, class F, class C, class Lights, class Observer = NoObserver>
 C illuminate(const Surface<F, C>& s, const C& Ia, int lights, const Lights& arriving,
              const Observer& observe = {}) {
-  C I = s.ka * Ia;
+  C I = ambient_term<Model>(s, Ia);  // Ka Ia
   observe(Term::ambient, -1, I);
   for (int l = 0; l < lights; ++l) {
     const Arriving<F, C> light = arriving(l);

@@ -17,6 +17,7 @@ struct Model {
   std::optional<Camera> camera;
   std::optional<ImageSettings> image;
   std::optional<Rgb> background;
+  ModelId illumination = ModelId::phong;  ///< The model that its materials are written for.
   std::vector<Diagnostic> warnings;
 };
 

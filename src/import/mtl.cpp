@@ -162,6 +162,7 @@ class MaterialReader {
     material.name = m.name;
     material.place = m.place;
     material.ior = 1;
+    material.own["illum"] = illum;  // for the model mtl; the others do without
     if (illum == 0) {
       material.ambient = material.diffuse = Rgb{};
       material.emission = Kd + Ke;

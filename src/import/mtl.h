@@ -20,8 +20,10 @@
 //   or Ke) or an image does (map_Kd).
 // - One number for a colour means a grey. Colours by spectral file or CIE XYZ are ignored, with a warning.
 // - `d -halo f` counts as `d f`, with a warning.
-// - The Fresnel factors of illum 5 and 7, the shadow matte of 10 and the reflection map of 8 and 9 are not
-// modelled: 5 reflects as
+// - `illum` itself goes to the model mtl, which the scene made for an OBJ file has: there the highlight of 5
+// and 7 has its Fresnel factor, and 10 is black. Under other models it says nothing.
+// - For all other models the Fresnel factors of illum 5 and 7, the shadow matte of 10 and the reflection map
+// of 8 and 9 are not modelled: 5 reflects as
 //   3, 7 as 6, 10 shades as 2, and 8 and 9 trace a ray as 3 and 4 do.
 // - Images (map_*, bump, disp, decal, refl, norm) and the keys of physically based materials (Pr, Pm, ...)
 // are passed over.

@@ -67,6 +67,7 @@ class ObjReader {
     if (!errors_.empty()) throw InputError(std::move(errors_));
     remark_what_was_skipped();
     Model model;
+    model.illumination = ModelId::mtl;
     Shape shape;
     shape.name = std::filesystem::path(file_.name).filename().string();
     shape.material_of_primitive = make_materials(model.materials);

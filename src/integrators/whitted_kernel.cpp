@@ -375,6 +375,8 @@ template <bool Seen> struct Work {
     for (int i = 0; i < max_model_parameters; ++i)
       if (Model::info.parameters[i].name)
         s.own[i] = of_materials(hits, [&](const MaterialRecord& m) { return m.own[i]; });
+    s.outside = select(hits.outside, F(1), F(-1));
+    s.to_camera = -broadcast<F>(frame.camera.forward);
 
     const FadingRecord& fading = frame.fading[int(id_of<Model>)];
     const F minimum(frame.minimum_distance);
@@ -394,6 +396,12 @@ template <bool Seen> struct Work {
       const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
       if (open == 0) return {hits.N, grey(F(0))};
       const auto light = sample_light(l, hits.P);
+      if constexpr (Model::info.unfaded_light) {
+        const F faded = attenuate(fading.attenuation, light.r, minimum);
+        const C Il = with_light(frame.lights[l], [](const auto& one) { return brightest<F>(one); });
+        return {light.L, share_that_passes(open, hits, light) * (faded * light.I), Il,
+                faded * share_of(light.I, Il)};
+      }
       return {light.L, share_that_passes(open, hits, light) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };

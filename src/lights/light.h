@@ -10,7 +10,8 @@
 // A light that lights only part of the world may say so with `reaches` and `has_limits`, below.
 //
 // What it hands out is the colour Il before attenuation: how light fades with distance is the scene's choice,
-// not the light's. The lecture's name for all this is light_t.
+// not the light's. Its settings have a `color` and an `intensity`. The lecture's name for all this is
+// light_t.
 
 #include "math/color.h"
 #include "math/functions.h"
@@ -49,6 +50,21 @@ template <class F> Color<F> emitted(const Rgb& color, double intensity) {
   return result;
 }
 template <class F> Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
+
+/// The colour that a light sends in its brightest direction. Every light has a `color` and an `intensity`,
+/// and `sample` hands out their product or, per channel by the same factor, less.
+template <class F, class Light> Color<F> brightest(const Light& light) {
+  return emitted<F>(light.color, light.intensity);
+}
+/// That factor: part = factor * whole; 0 where the light is black.
+template <class F> F share_of(const Color<F>& part, const Color<F>& whole) {
+  F p = part[0], w = whole[0];
+  for (int i = 1; i < color_channels; ++i) {
+    const auto more = whole[i] > w;
+    p = select(more, part[i], p), w = select(more, whole[i], w);
+  }
+  return select(w > F(0), p / w, F(0));
+}
 
 /// A box in the world, with its ends.
 struct Reach {

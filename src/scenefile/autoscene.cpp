@@ -117,18 +117,20 @@ constexpr double floor_grey = 0.3;
 constexpr double floor_radius = 60;  // radii of the model
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
-std::string studio_text(const Camera& camera, const Ball& ball, const Rounding& rounded) {
+std::string studio_text(ModelId model, const Camera& camera, const Ball& ball, const Rounding& rounded) {
   const Vec3<double> to_eye = camera.eye - ball.center;
   const Frame frame = frame_of(camera.eye - camera.target, camera.up);
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(
       out,
-      "# The lecture's equation. As 1/r and 1/R depend on the unit of length, the ambient light is {}\n"
+      "# {}. As 1/r and 1/R depend on the unit of length, the ambient light is {}\n"
       "# times the camera's distance, and each light's intensity its brightness times its own distance.\n",
+      model == ModelId::mtl ? "Wavefront's equation, that of MTL files, under the lecture's attenuations"
+                            : "The lecture's equation",
       ambient_brightness);
-  fmt::format_to(out, "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n",
-                 info(ModelId::phong).name, text_of(attenuation_1_over_r),
+  fmt::format_to(out, "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n", info(model).name,
+                 text_of(attenuation_1_over_r),
                  text_of(grey(rounded(ambient_brightness * max(length(to_eye), ball.radius)))));
   fmt::format_to(out, "  ambient_attenuation: {}\n  minimum_distance: {}\n",
                  text_of(AmbientAttenuation::one_over_R),
@@ -216,8 +218,9 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
   if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
   else if (!model.camera && !own_lights)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));
-  fmt::format_to(out, "\n{}",
-                 own_lights ? own_lights_text(model.lights) : studio_text(camera, ball, rounded));
+  fmt::format_to(
+      out, "\n{}",
+      own_lights ? own_lights_text(model.lights) : studio_text(model.illumination, camera, ball, rounded));
 
   fmt::format_to(
       out, "\n# The model brings its materials.\nobjects:\n  - {{name: model, mesh: {{file: {}}}}}\n", file);

@@ -20,7 +20,7 @@ ParameterInfo parameter(const Field& field) {
 }
 
 Entry entry(const Section& section) {
-  Entry result{section.name, section.title,       section.equation,           section.source,
+  Entry result{section.name, section.title,       section.equation,           section.source, section.differs,
                {},           section.attenuation, section.ambient_attenuation};
   for (const Field& field : section.fields) result.parameters.push_back(parameter(field));
   return result;

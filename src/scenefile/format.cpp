@@ -91,12 +91,14 @@ std::vector<Section> model_sections() {
     Section model = section(info.name, info.title, {});
     model.equation = info.equation;
     model.source = info.source;
+    model.differs = info.differs;
     model.attenuation = text_of(info.attenuation);
     model.ambient_attenuation = text_of(info.ambient_attenuation);
     for (const ModelParameter& parameter : info.parameters) {
       if (parameter.name == nullptr) break;
       model.fields.push_back(
-          with(field(parameter.name, FieldType::number, text_of(parameter.default_value), parameter.sentence),
+          with(field(parameter.name, parameter.whole ? FieldType::integer : FieldType::number,
+                     text_of(parameter.default_value), parameter.sentence),
                {parameter.min, parameter.max}, parameter.unit));
     }
     models.push_back(std::move(model));

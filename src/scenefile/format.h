@@ -54,7 +54,7 @@ struct Field {
 
 /// A mapping of the scene file.
 struct Section {
-  std::string name, title, equation, source;
+  std::string name, title, equation, source, differs;
   std::vector<Field> fields;
   std::string attenuation,
       ambient_attenuation;  ///< A model's defaults, as one would write them; otherwise empty.

@@ -61,6 +61,7 @@ std::string models_text(const std::vector<Section>& models) {
     title[0] = char(std::toupper(static_cast<unsigned char>(title[0])));
     text += fmt::format("### `{}`\n\n{}.\n\n    {}\n\n", model.name, title, model.equation);
     if (!model.source.empty()) text += "Source: " + model.source + ".\n\n";
+    if (!model.differs.empty()) text += "How it differs from the lecture: " + model.differs + "\n\n";
     if (!model.fields.empty()) text += "Numbers of its own, given in the material:\n\n" + table(model.fields);
   }
   return text;
@@ -169,7 +170,13 @@ constexpr const char* model_files_text = R"(## Model files
 
 `lambent render model.obj` needs no scene: a camera, lights and a floor are chosen to suit the model. `lambent convert model.obj
 scene.yaml` writes that scene down, as a start for one of your own. Files that know a camera and lights of their own, such as
-NFF's, keep them.
+NFF's, keep them. OBJ files are lit by the model `mtl`, with the `illum` of their materials.
+
+## For other renderers
+
+`lambent convert scene.yaml scene.pov` writes a scene or a model for POV-Ray 3.7, `lambent convert scene.yaml scene.dat` for
+Tachyon 0.99: camera, lights, materials and shapes, with the command that renders it in its first lines. What the other program
+cannot do is said as a warning that names the material, light or object. `script/conformance` compares the pictures.
 )";
 
 }  // namespace

@@ -80,9 +80,12 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
       const Value* own = values->find(field.name);
       if (own == nullptr || (out.own.count(field.name) != 0 && i != chosen)) continue;
       const Field* decisive = find(format().models[chosen].fields, field.name);
+      const Field& rule = decisive != nullptr ? *decisive : field;
       double number = 0;
-      if (reader.number(*own, limits(decisive != nullptr ? *decisive : field), number))
-        out.own[field.name] = number;
+      int whole = 0;
+      if (rule.type == FieldType::integer ? reader.integer(*own, limits(rule), whole)
+                                          : reader.number(*own, limits(rule), number))
+        out.own[field.name] = rule.type == FieldType::integer ? double(whole) : number;
     }
   }
   return reader.count() == before && !values->unknown_keys;

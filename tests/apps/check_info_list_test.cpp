@@ -118,6 +118,13 @@ TEST_F(Look, ListNamesAllThereIs) {
     }
   }
   EXPECT_NE(run({"list", "models", "phong"}).out.find("phong"), std::string::npos);
+  for (const Entry& model : catalogue()[0].entries) {
+    EXPECT_NE(model.differs, "") << model.name;
+    EXPECT_NE(run({"list", "models", model.name}).out.find("How it differs: "), std::string::npos)
+        << model.name;
+    EXPECT_EQ(json::parse(run({"list", "models", model.name, "--json"}).out)["differs"], model.differs);
+    EXPECT_NE(scene_manual().find("How it differs from the lecture: " + model.differs), std::string::npos);
+  }
 }
 
 TEST_F(Look, ListFitsInEightyColumns) {

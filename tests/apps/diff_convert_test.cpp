@@ -123,6 +123,26 @@ TEST_F(Files, ASceneOfOnesOwnIsNotOverwrittenUnasked) {
   EXPECT_EQ(read_text(folder.file("t.yaml")).find("mine"), std::string::npos);
 }
 
+TEST_F(Files, ASceneIsExportedWithRemarks) {
+  write_text(folder.file("s.yaml"),
+             "lambent: 1\ncamera: {eye: [0, 0, 5], target: [0, 0, 0]}\n"
+             "materials: [{name: gold, specular: [1, 0.8, 0.2]}]\n"
+             "objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: gold}]\n");
+  ProgramResult result = run({"convert", "s.yaml", "s.pov"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find(
+                "s.yaml:3:13: warning: POV-Ray gives highlights the light's colour; that of material 'gold'"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(read_text(folder.file("s.pov")).find("sphere { <0, 0, 0>, 1"), std::string::npos);
+  result = run({"convert", "s.yaml", "s.pov"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err, "error: 's.pov' is there already\n    hint: --force overwrites it\n");
+  EXPECT_EQ(run({"convert", "s.yaml", "s.pov", "--force"}).exit_code, 0);
+  EXPECT_EQ(run({"convert", "s.yaml", "s.dat"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder.file("s.dat")).find("# s.yaml"), 0u);
+}
+
 TEST_F(Files, ABrokenModelLeavesNoScene) {
   write_text(folder.file("broken.obj"), "v 0 0 0\nf 1 2 3\n");
   const ProgramResult result = run({"convert", "broken.obj", "t.yaml"});

@@ -67,7 +67,8 @@ TEST(Usage, MistakesAreNamedWithTheNearestRemedy) {
        "error: unknown name in models 'phnog'\n    hint: did you mean 'phong'?\n"},
       {{"convert", "a.obj", "b.obj"},
        "error: cannot make 'b.obj' of 'a.obj'\n"
-       "    hint: a model becomes a scene (.yaml), a picture a picture (.png, .exr)\n"},
+       "    hint: a model becomes a scene (.yaml), a scene or a model a scene of POV-Ray (.pov) or Tachyon "
+       "(.dat), a picture a picture (.png, .exr)\n"},
       {{"convert", "a.obj", "b.png"},
        "error: 'a.obj' is not a picture\n"
        "    hint: 'lambent render a.obj -o b.png' makes a picture of a scene or a model\n"},

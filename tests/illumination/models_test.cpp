@@ -145,9 +145,17 @@ Situation random_situation(std::mt19937& random, const ModelInfo& model) {
   result.s.kd = {{u(random), u(random), u(random)}};
   result.s.ks = {{u(random), u(random), u(random)}};
   result.s.n = 200 * u(random);
-  for (int i = 0; i < max_model_parameters && model.parameters[i].name; ++i)
-    result.s.own[i] = model.parameters[i].default_value;
-  result.light = {random_direction(random), {{u(random), u(random), u(random)}}};
+  // The model's own numbers: as they are by default, or anywhere in their ranges.
+  const bool by_default = u(random) < 0.3;
+  for (int i = 0; i < max_model_parameters && model.parameters[i].name; ++i) {
+    const ModelParameter& own = model.parameters[i];
+    const double anywhere = own.min + (min(own.max, own.min + 20) - own.min) * u(random);
+    result.s.own[i] = by_default ? own.default_value : own.whole ? std::round(anywhere) : anywhere;
+  }
+  result.s.to_camera = random_direction(random);
+  const double faded = u(random);
+  const C Il{{u(random), u(random), u(random)}};
+  result.light = {random_direction(random), faded * Il, Il, faded};
   return result;
 }
 
@@ -165,6 +173,7 @@ TEST(EveryModel, HasAManualPage) {
     EXPECT_NE(std::string(model.title), "");
     EXPECT_NE(std::string(model.equation), "");
     EXPECT_NE(std::string(model.source), "");
+    EXPECT_NE(std::string(model.differs), "") << model.name;
     for (const ModelParameter& parameter : model.parameters) {
       if (!parameter.name) break;
       EXPECT_LE(parameter.min, parameter.default_value);
@@ -205,7 +214,7 @@ TEST(EveryModel, IsFiniteNotNegativeAndLinearInTheLight) {
     for (int i = 0; i < 2000; ++i) {
       Situation x = random_situation(random, Model::info);
       const auto once = Model::evaluate(x.s, x.light);
-      x.light.I = 2.0 * x.light.I;
+      x.light.I = 2.0 * x.light.I, x.light.Il = 2.0 * x.light.Il;
       const auto twice = Model::evaluate(x.s, x.light);
       for (int c = 0; c < color_channels; ++c) {
         EXPECT_TRUE(std::isfinite(once.diffuse[c]) && once.diffuse[c] >= 0);
@@ -224,7 +233,10 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
     std::mt19937 random(7);
     for (int i = 0; i < 2000; ++i) {
       Situation one[lanes_of<P>];
-      for (Situation& situation : one) situation = random_situation(random, Model::info);
+      for (Situation& situation : one) {
+        situation = random_situation(random, Model::info);
+        situation.s.outside = random() % 2 == 0 ? 1 : -1;
+      }
       const auto vectors = [&](const auto& of) {
         return gather_points<P>([&](int k) { return of(one[k]); });
       };
@@ -232,12 +244,16 @@ TEST(EveryModel, GivesTheSameBitsForANumberAndForALane) {
       Arriving<P, CP> light;
       s.N = vectors([](const Situation& a) { return a.s.N; });
       s.V = vectors([](const Situation& a) { return a.s.V; });
+      s.to_camera = vectors([](const Situation& a) { return a.s.to_camera; });
+      s.outside = gather<P>([&](int k) { return one[k].s.outside; });
       light.L = vectors([](const Situation& a) { return a.light.L; });
+      light.faded = gather<P>([&](int k) { return one[k].light.faded; });
       s.n = gather<P>([&](int k) { return one[k].s.n; });
       for (int c = 0; c < color_channels; ++c) {
         s.kd[c] = gather<P>([&](int k) { return one[k].s.kd[c]; });
         s.ks[c] = gather<P>([&](int k) { return one[k].s.ks[c]; });
         light.I[c] = gather<P>([&](int k) { return one[k].light.I[c]; });
+        light.Il[c] = gather<P>([&](int k) { return one[k].light.Il[c]; });
       }
       for (int j = 0; j < max_model_parameters; ++j)
         s.own[j] = gather<P>([&](int k) { return one[k].s.own[j]; });

@@ -56,6 +56,14 @@ TEST(Mtl, Illum0IsItsColourAlone) {
   EXPECT_EQ(m.transmit, black);
 }
 
+TEST(Mtl, IllumIsKeptForTheModel) {
+  for (int illum = 0; illum <= 10; ++illum)
+    EXPECT_EQ(material("illum " + std::to_string(illum) + "\n").own,
+              (std::map<std::string, double>{{"illum", illum}}));
+  EXPECT_EQ(material("Ks 1 1 1\n").own.at("illum"), 2);
+  EXPECT_EQ(material("Kd 1 1 1\n").own.at("illum"), 1);
+}
+
 TEST(Mtl, Illum1HasNoHighlight) {
   for (const char* illum : {"Ks 1 1 1\nillum 1\n", ""}) {
     const Material m = material(std::string("Ka 0.1 0.2 0.3\nKd 0.4 0.5 0.6\nNs 7\n") + illum);

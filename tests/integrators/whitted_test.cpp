@@ -65,6 +65,31 @@ const Expected every_model[] = {
        return ka / R +
               8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
      }},
+    // I = Ka Ia + Il [ Kd (N.L)+ + Ks (N.H)+^n ], illum 2
+    {"mtl",
+     [](const V& N, const V& L, const V& E, double, double, double ka, double kd, double ks, double n) {
+       const V H = normalize(L + E);
+       return ka + 8 * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+     }},
+    // the same with the viewer infinitely far behind the camera, which looks along -z
+    {"opengl",
+     [](const V& N, const V& L, const V&, double, double, double ka, double kd, double ks, double n) {
+       const V H = normalize(L + V{0, 0, 1});
+       return ka + 8 * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+     }},
+    // I = Ka Ia + Il [ Kd (N.L)+ + Ks (R.V)+^n ]: no specular, brilliance 1
+    {"povray",
+     [](const V& N, const V& L, const V& E, double, double, double ka, double kd, double ks, double n) {
+       const V mirrored = 2 * dot(N, L) * N - L;
+       return ka +
+              8 * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(mirrored, E)), n) : 0));
+     }},
+    // mtl's, with nothing of a light where N.L <= 1/512
+    {"tachyon",
+     [](const V& N, const V& L, const V& E, double, double, double ka, double kd, double ks, double n) {
+       const V H = normalize(L + E);
+       return ka + (dot(N, L) > 1 / 512. ? 8 * (kd * dot(N, L) + ks * std::pow(plus(dot(N, H)), n)) : 0);
+     }},
 };
 
 TEST(OneSphereOneLight, EveryModelToOneMillionth) {
@@ -113,6 +138,60 @@ TEST(OneSphereOneLight, EveryModelOfTheRegistryIsAmongThem) {
     for (const Expected& expected : every_model) found |= std::string(expected.model) == model.name;
     EXPECT_TRUE(found) << "write the closed form of " << model.name << " into this file";
   }
+}
+
+// ---- what only some models ask for
+
+/// The eye at the middle of a sphere of radius 2, looking at its inside; a lamp stands halfway on the way
+/// there.
+Image inside_of_a_sphere(const std::string& material) {
+  return picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 0], target: [0, 0, -1], fov: 1}
+image: {size: [1, 1]}
+illumination: {model: opengl, ambient: 1}
+lights: [{point: {position: [0, 0.01, -1]}}]
+materials: [{name: m, ambient: 0.125, diffuse: 0.5, )" +
+                 material + R"(}]
+objects: [{sphere: {center: [0, 0, 0], radius: 2}, material: m}]
+)");
+}
+
+TEST(OpenGlInside, IsLitOnlyWithTwoSides) {
+  EXPECT_EQ(inside_of_a_sphere("two_sided: 0").pixel(0, 0)[0], 0.125f);
+  EXPECT_NEAR(inside_of_a_sphere("two_sided: 1").pixel(0, 0)[0], 0.125 + 0.5 * std::cos(0.01), 1e-4);
+}
+
+TEST(TachyonHighlight, DoesNotFade) {
+  // The light is 3 above the point, 30 degrees off a spot's axis that fades with the cosine to the 4th, seen
+  // from above: N.H = 1.
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 5, 0], target: [0, 0, 0], up: [0, 0, -1], fov: 1}
+image: {size: [1, 1]}
+illumination: {model: tachyon, ambient: 0, attenuation: 1/r^2}
+lights: [{spot: {position: [0, 3, 0], target: [1.7320508075688772, 0, 0], angle: 120, softness: 0, exponent: 4, color: [1, 2, 4], intensity: 0.5}}]
+materials: [{name: m, ambient: 0, diffuse: [0.5, 0.25, 0.125], specular: 0.25, shininess: 10}]
+objects: [{plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: m}]
+)");
+  for (int c = 0; c < 3; ++c) {
+    const double Il = 0.5 * (1 << c), kd = 0.5 / (1 << c);
+    EXPECT_NEAR(image.pixel(0, 0)[c], Il * std::pow(0.75, 2) / 9 * kd + Il * 0.25,
+                1e-6);  // cos^4 30 = 0.75^2
+  }
+}
+
+TEST(Mtl, Illum0IsItsColourWhateverTheLight) {
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0], fov: 1}
+image: {size: [1, 1]}
+illumination: {model: mtl}
+lights: [{point: {position: [0, 0, 5], intensity: 7}}]
+materials: [{name: m, ambient: 0.3, diffuse: [0.5, 0.25, 0.125], specular: 1, illum: 0}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: m}]
+)");
+  for (int c = 0; c < 3; ++c) EXPECT_EQ(image.pixel(0, 0)[c], 0.5f / float(1 << c));
 }
 
 // ---- distances

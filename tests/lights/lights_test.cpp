@@ -50,6 +50,30 @@ TEST(SpotLight, FadesBetweenTheInnerAndTheOuterCone) {
   EXPECT_EQ(spot_at(30.1, 60, 0, 0), 0);
 }
 
+TEST(EveryLight, HandsOutItsColourTimesOneFactor) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> u(-3, 3), size(0, 1);
+  const Rgb color{{0.2, 0.9, 0.4}};
+  int between = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3<double> position{u(random), u(random), u(random)}, target{u(random), u(random), u(random)};
+    const Vec3<double> P{u(random), u(random), u(random)};
+    for (const AnyLight& light :
+         {AnyLight(PointLight{position, color, 3, 4}), AnyLight(DirectionalLight{target, color, 3}),
+          AnyLight(SpotLight{position, target, color, 3, 120, 0.9, 2})})
+      with_light(light, [&](const auto& one) {
+        const Rgb I = sample(one, P, 0.5, 0.5).I, whole = brightest<double>(one);
+        const double share = share_of(I, whole);
+        EXPECT_GE(share, 0);
+        EXPECT_LE(share, 1);
+        between += share > 0 && share < 1;
+        for (int c = 0; c < color_channels; ++c) EXPECT_NEAR(I[c], share * whole[c], 1e-15);
+      });
+  }
+  EXPECT_GT(between, 100);
+  EXPECT_EQ(share_of(Rgb{}, Rgb{}), 0);
+}
+
 TEST(EveryLight, IsBlackWhereItSaysThatItDoesNotReach) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> u(-3, 3), size(0, 1), share(0, 1);

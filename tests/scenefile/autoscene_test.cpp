@@ -138,6 +138,14 @@ TEST(Autoscene, LightsTheModelAlikeWhateverItsSize) {
   }));
 }
 
+TEST(Autoscene, LightsAModelAsItsMaterialsAreMeant) {
+  Model model = box_model({0, 0, 0}, {1, 1, 1});
+  model.illumination = ModelId::mtl;
+  const Scene scene = scene_of(model);
+  EXPECT_EQ(scene.illumination.model, ModelId::mtl);
+  EXPECT_EQ(*scene.illumination.attenuation, attenuation_1_over_r);  // the lamps are made for it
+}
+
 TEST(Autoscene, ScalesWithTheUnitOfLength) {
   EXPECT_TRUE(rc::check([] {
     const Box box = random_box();

@@ -51,6 +51,14 @@ TEST(Settings, ElementsByNameAndIndex) {
   EXPECT_EQ(parse_scene(text, "s", set("materials.a.b.diffuse", "0.5"))->materials[0].diffuse, grey(0.5));
 }
 
+TEST(Settings, AModelsSwitchesAreWholeNumbers) {
+  const std::string text = head + "materials: [{name: m, model: mtl}]\n";
+  EXPECT_EQ(parse_scene(text, "s", set("materials.m.illum", "7"))->materials[0].own.at("illum"), 7);
+  EXPECT_NE(report(text, set("materials.m.illum", "2.5")).find("must be a whole number, not '2.5'"),
+            std::string::npos);
+  EXPECT_NE(report(text, set("materials.m.illum", "11")).find("0 to 10"), std::string::npos);
+}
+
 TEST(Settings, AliasedValuesChangeInOnePlaceOnly) {
   const std::string text =
       head + "lights:\n- {name: a, point: &p {position: [0, 1, 0]}}\n- {name: b, point: *p}\n";

@@ -13,6 +13,10 @@ struct Attenuated : Conventional {
       .title = "Lambert's cosine, lights fade with 1/r^2",
       .equation = "Il / r^2  Kd (N.L)+",
       .source = "the lecture's model 2",
+      .differs =
+          "It is the lecture's second step: lights fade as physics has it, so intensities are those of real "
+          "lamps and "
+          "grow with the square of the scene. The ambient term does not fade, and there is no highlight.",
       .attenuation = attenuation_1_over_r2,
   };
 };

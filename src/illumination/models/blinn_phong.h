@@ -13,6 +13,10 @@ struct BlinnPhong {
       .title = "Blinn's highlight, by the half-vector",
       .equation = "Il / r [ Kd (N.L)+ + Ks ((N.H)+)^n ],  H = (L + V) / |L + V|",
       .source = "Blinn, Models of light reflection for computer synthesized pictures, SIGGRAPH 1977",
+      .differs =
+          "The lecture's second form of the highlight: N.H in place of R.V. H leans half as far as R, so for "
+          "the same n "
+          "the highlight is about twice as wide; four times n brings it near to phong's.",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };

@@ -14,6 +14,10 @@ struct BlinnPhongHalfway {
       .title = "Blinn's highlight in its cheap form, H not normalised",
       .equation = "Il / r [ Kd (N.L)+ + Ks ((N.H)+)^n ],  H = (L + V) / 2",
       .source = "the lecture, after Blinn 1977",
+      .differs =
+          "The lecture's cheap form of blinn_phong: (L + V) / 2 is as short as the cosine of half the angle "
+          "between L and "
+          "V, and its power n dims the highlight the more, the farther light and eye are apart.",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };

@@ -17,6 +17,10 @@ struct Conventional {
       .title = "Lambert's cosine, lights do not fade",
       .equation = "Il Kd (N.L)+",
       .source = "Lambert, Photometria, 1760; the lecture's model 1",
+      .differs =
+          "It is the lecture's first step: no highlight, and nothing fades, neither lights with r nor the "
+          "ambient "
+          "term with R.",
   };
   template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     return {lambert(s, light), C{}};

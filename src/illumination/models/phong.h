@@ -15,6 +15,11 @@ struct Phong {
       .source =
           "Bui Tuong Phong, Illumination for computer generated pictures, CACM 18(6), 1975; the lecture's "
           "model",
+      .differs =
+          "It is the lecture's own. Three things that the notes leave open are settled here: the highlight "
+          "is zero where "
+          "N.L <= 0, a light in shadow gives neither diffuse nor specular light, and 1/r ends at "
+          "minimum_distance.",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
   };
