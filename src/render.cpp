@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "describe.h"
@@ -37,6 +38,11 @@ std::uint64_t peak_memory_bytes() {
   return std::uint64_t(usage.ru_maxrss) * 1024;
 }
 
+/// How many samples of the frame's a view takes: it has no colours by which a pixel could need more.
+int view_samples(const ImageSettings& image, const Frame& frame) {
+  return image.adaptive && image.pattern != Pattern::corners ? image.adaptive->start : frame.samples;
+}
+
 }  // namespace
 
 const char* version() { return LAMBENT_VERSION; }
@@ -63,7 +69,12 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   stats.bytes.film = film.values.size() * sizeof(float);
   const double pixels = double(film.width) * film.height;
   const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
-  const TileRun run = scene->image.adaptive && scene->image.pattern != Pattern::corners
+  ViewRun view;
+  if (scene->view)
+    view = render_view(prepared->frame, kernel, view_record(*scene, *scene->view),
+                       view_samples(scene->image, prepared->frame), film, tile_options);
+  const TileRun run = scene->view ? view.tiles
+                      : scene->image.adaptive && scene->image.pattern != Pattern::corners
                           ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
                           : render_tiles(prepared->frame, kernel, film, tile_options);
   stats.seconds.render = clock.lap();
@@ -71,6 +82,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   result.image = develop(std::move(film), scene->image);
   result.metadata = settings_metadata(*scene);
   if (book) result.metadata.insert(result.metadata.end(), book->metadata().begin(), book->metadata().end());
+  if (view.most_rays > 0) result.metadata.emplace_back("lambent:most_rays", std::to_string(view.most_rays));
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;

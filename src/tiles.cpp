@@ -21,6 +21,24 @@ void list_pixels(int x0, int y0, int x1, int y1, std::vector<Pixel>& pixels) {
         for (int i = x; i < std::min(x + square, x1); ++i) pixels.push_back({i, j});
 }
 
+/// The tiles of a film, row by row.
+struct Tiles {
+  const Film& film;
+  int size;
+  std::int64_t across = (film.width + size - 1) / size, down = (film.height + size - 1) / size;
+
+  std::int64_t count() const { return across * down; }
+  void list_pixels_of(std::int64_t i, std::vector<Pixel>& pixels) const {
+    const int x = int(i % across) * size, y = int(i / across) * size;
+    pixels.clear();
+    list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), pixels);
+  }
+};
+
+std::uint64_t all_of(const RayCounts& rays) {
+  return rays.eye + rays.reflection + rays.refraction + rays.shadow;
+}
+
 /// What a thread keeps from task to task.
 struct Worker {
   Scratch scratch;
@@ -95,14 +113,11 @@ class Crew {
 
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
-  const int size = options.tile_size;
-  const std::int64_t across = (film.width + size - 1) / size, down = (film.height + size - 1) / size;
+  const Tiles tiles{film, options.tile_size};
   const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
   const std::vector<double> distances = distances_from_centre(frame);
-  Crew(options, run).share(across * down, 0, 1, [&](std::int64_t i, Worker& worker) {
-    const int x = int(i % across) * size, y = int(i / across) * size;
-    worker.pixels.clear();
-    list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), worker.pixels);
+  Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
+    tiles.list_pixels_of(i, worker.pixels);
     worker.sums.assign(worker.pixels.size() * color_channels, 0);
     PixelTask task{worker.pixels.data(),
                    std::uint32_t(worker.pixels.size()),
@@ -202,6 +217,59 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
   if (sample_counts)
     for (int y = 0; y < film.height; ++y)
       for (int x = 0; x < film.width; ++x) sample_counts->push_back(samples.at(x, y).samples);
+  return run;
+}
+
+ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& view, int samples, Film& film,
+                    const TileOptions& options) {
+  ViewRun run;
+  const Tiles tiles{film, options.tile_size};
+  const Frame asked = frame_for(frame, view.show);
+  const auto task_of = [&](const Pixel* pixels, std::size_t count, Worker& worker) {
+    worker.sums.assign(count * color_channels, 0);
+    return PixelTask{pixels, std::uint32_t(count), 0, samples, worker.sums.data(), nullptr};
+  };
+
+  if (view.show != View::rays) {
+    // So many that what is known of their samples takes a few megabytes at most.
+    const auto at_a_time = std::size_t(std::max(1, (1 << 16) / samples));
+    Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
+      tiles.list_pixels_of(i, worker.pixels);
+      for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
+        const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
+        PixelTask task = task_of(&worker.pixels[first], count, worker);
+        worker.first_hits.resize(count * std::size_t(samples));
+        task.first_hits = worker.first_hits.data();
+        kernel.render(asked, task, worker.scratch, worker.counts);
+        for (std::size_t p = 0; p < count; ++p) {
+          Rgb sum{};
+          for (int s = 0; s < samples; ++s)
+            sum = sum + view_color(view, worker.first_hits[p * std::size_t(samples) + std::size_t(s)]);
+          float* to = film.pixel(worker.pixels[first + p].x, worker.pixels[first + p].y);
+          for (int c = 0; c < color_channels; ++c) to[c] = float(sum[c] / samples);
+        }
+      }
+    });
+    return run;
+  }
+
+  // Rays are counted by the task, so that each pixel is one; and none has its colour before all are counted.
+  std::vector<std::uint64_t> rays(std::size_t(film.width) * std::size_t(film.height));
+  Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
+    tiles.list_pixels_of(i, worker.pixels);
+    for (const Pixel& pixel : worker.pixels) {
+      const std::uint64_t before = all_of(worker.counts);
+      kernel.render(asked, task_of(&pixel, 1, worker), worker.scratch, worker.counts);
+      rays[std::size_t(pixel.y) * std::size_t(film.width) + std::size_t(pixel.x)] =
+          all_of(worker.counts) - before;
+    }
+  });
+  run.most_rays = *std::max_element(rays.begin(), rays.end());
+  for (std::size_t p = 0; p < rays.size(); ++p) {
+    const Rgb color = color_of_ray_count(rays[p], run.most_rays);
+    for (int c = 0; c < color_channels; ++c)
+      film.values[p * color_channels + std::size_t(c)] = float(color[c]);
+  }
   return run;
 }
 

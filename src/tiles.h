@@ -3,6 +3,7 @@
 
 #include "film/film.h"
 #include "integrators/frame.h"
+#include "integrators/view.h"
 
 namespace lambent {
 
@@ -25,5 +26,13 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
 ///   samples  if not null: how many each pixel got, row by row
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
                           const TileOptions& options, std::vector<int>* samples = nullptr);
+
+/// Renders a view in place of the colours: `samples` samples of every pixel, the first of the frame's.
+struct ViewRun {
+  TileRun tiles;
+  std::uint64_t most_rays = 0;  ///< Of View::rays: those of the pixel that asked the most. Otherwise 0.
+};
+ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& view, int samples, Film& film,
+                    const TileOptions& options);
 
 }  // namespace lambent

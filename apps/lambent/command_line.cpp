@@ -160,6 +160,14 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_scene_options(command, shorthands);
+  const auto view = [&shorthands](const std::string& text) {
+    shorthands.settings.emplace_back("integrator.view.show", text);
+  };
+  command
+      ->add_option_function<std::string>("--view", view,
+                                         "Not colours, but what rays meet or how many\nthere are: normals, "
+                                         "depth, ... ('lambent list\nintegrators view')")
+      ->type_name("NAME");
   add_threads(command, render.threads);
   add_integer(command, "--tile", render.tile, 1,
               "Width of the tiles that threads take, in\npixels (default 32)");

@@ -4,6 +4,7 @@
 // The default is the value that a default-constructed struct holds.
 
 #include <limits>
+#include <string>
 #include <variant>
 
 #include "math/color.h"
@@ -25,7 +26,8 @@ enum class Kind { value, point, direction };
 
 /// One parameter that a member of S holds.
 template <class S> struct Parameter {
-  using Member = std::variant<double S::*, int S::*, bool S::*, Rgb S::*, Vec3<double> S::*>;
+  using Member =
+      std::variant<double S::*, int S::*, bool S::*, Rgb S::*, Vec3<double> S::*, std::string S::*>;
   const char* name;
   Member member;
   Range range;

@@ -154,6 +154,22 @@ inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
      "counts nothing, as the SPD benchmark counts rays."},
 };
 
+/// What a debug view makes a colour of: something about what the eye's ray meets first, or how many rays were
+/// asked. The formulas are in integrators/view.h.
+enum class View { normals, depth, uv, primitives, objects, materials, rays, cosine };
+struct ViewSettings {
+  View show = View::normals;
+  std::string light;  ///< Of View::cosine: the name of one of the scene's. Otherwise empty, or of no effect.
+};
+template <>
+inline constexpr Parameter<ViewSettings> parameters_of<ViewSettings>[] = {
+    {"light",
+     &ViewSettings::light,
+     {},
+     "",
+     "The name of the light whose N.L `cosine` shows; the scene's only light where not given."},
+};
+
 struct Material {
   std::string name;
   Place place;  ///< Where it was written.
@@ -292,7 +308,8 @@ struct Scene {
   ImageSettings image;
   FilmSettings film;
   Illumination illumination;
-  WhittedSettings whitted;
+  WhittedSettings whitted;           ///< With a view: the rays that View::rays counts.
+  std::optional<ViewSettings> view;  ///< In place of the colours.
   Rgb background{0, 0, 0};
   std::vector<Light> lights;
   std::vector<Material> materials;

@@ -26,6 +26,7 @@ template <class S> struct AsField {
                                             : FieldType::vector,
         text_of(defaults.*member));
   }
+  void operator()(std::string S::*) const { set(FieldType::name, {}); }  // names have no defaults
   void set(FieldType type, std::string default_value) const {
     field.type = type;
     if (!parameter.required) field.default_value = std::move(default_value);
@@ -224,10 +225,20 @@ Format make_format() {
   Section whitted = section("whitted", "rays from the eye, mirrored and refracted on: Whitted's ray tracing",
                             fields_of<WhittedSettings>());
   whitted.source = "Whitted, An improved illumination model for shaded display, CACM 23(6), 1980";
-  f.integrators = {whitted};
+  Field show = required("show", FieldType::choice, "What is made a colour.");
+  show.choices = names_of<View>();
+  Section view = section("view", "what eye rays meet first, as a colour, to look into a scene",
+                         std::vector{show} + fields_of<ViewSettings>());
+  // A picture of how many rays Whitted's tracing asks must say which.
+  for (Field field : whitted.fields) {
+    field.sentence = "Of the rays that `rays` counts, as in `whitted`. " + field.sentence;
+    view.fields.push_back(std::move(field));
+  }
+  f.integrators = {whitted, view};
   f.integrator =
-      section("integrator", "how rays are followed",
-              {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on.")});
+      section("integrator", "how rays are followed, and what is shown of them: one of these",
+              {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
+               field("view", FieldType::section, "", "Not colours, but what the eye's rays meet first.")});
   f.light = section("light", "a light",
                     {field("name", FieldType::name, "",
                            "What it is called, once only; `light 1` and so on where not given.")});

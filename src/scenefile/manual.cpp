@@ -140,6 +140,29 @@ light of it.
 
 )";
 
+constexpr const char* view_text =
+    R"(`lambent render scene.yaml --view normals` shows a view of any scene, whatever its `integrator` says. Each pixel is the mean
+over its samples of a colour made of what the eye's ray meets first; where it meets nothing it is black:
+
+| `show` | colour |
+|---|---|
+| `normals` | (N + 1) / 2 for each axis of the world, N on the eye's side |
+| `depth` | grey: 1 / (1 + R / s), s the distance of the camera's `eye` from its `target`; near is bright |
+| `uv` | (u - floor u, v - floor v, 0), of meshes that have `uvs` |
+| `primitives`, `objects`, `materials` | each its own, whatever the others are |
+| `cosine` | grey: (N.L)+ of one `light`, shadows left out |
+| `rays` | how many rays the pixel asked: from the eye, mirrored, refracted and to lights |
+
+`rays` goes from dark blue over green and yellow to white, by log(1 + count); white is the most of any pixel of the picture,
+and the picture's metadata says how many these are (`lambent:most_rays`). With `pattern: corners` each corner's count has its
+colour, and a pixel is their mean. Of adaptive samples a view takes `start`. Views are numbers, written as colours are: a PNG
+holds them as they are with `image: {encoding: none}`, an EXR always. They have no layers.
+
+A scene file names one integrator. One that is set on the command line takes the place of the file's; a view then counts the
+rays of the file's `whitted`.
+
+)";
+
 constexpr const char* mesh_text =
     R"(A mesh file is read once, however many objects show it, and takes memory once: objects with the same `file` are instances.
 An object without `material` takes the file's materials; one of the scene's `materials` that has the name of one of the
@@ -220,7 +243,7 @@ std::string scene_manual() {
       "brings the attenuations "
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
-  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators);
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + view_text;
   text +=
       "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
       " - {name: lamp, point: "

@@ -31,6 +31,12 @@ inline constexpr std::pair<const char*, AmbientAttenuation> words_of<AmbientAtte
 template <>
 inline constexpr std::pair<const char*, Attenuation> words_of<Attenuation>[] = {
     {"none", attenuation_none}, {"1/r", attenuation_1_over_r}, {"1/r^2", attenuation_1_over_r2}};
+template <>
+inline constexpr std::pair<const char*, View> words_of<View>[] = {
+    {"normals", View::normals}, {"depth", View::depth},
+    {"uv", View::uv},           {"primitives", View::primitives},
+    {"objects", View::objects}, {"materials", View::materials},
+    {"rays", View::rays},       {"cosine", View::cosine}};
 
 template <class E> std::vector<std::string> names_of() {
   std::vector<std::string> names;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -159,17 +160,64 @@ void read_illumination(Reader& reader, const Value& value, Illumination& illumin
   }
 }
 
-void read_integrator(Reader& reader, const Value& value, WhittedSettings& whitted) {
+void read_whitted(Reader& reader, const Value& value, WhittedSettings& whitted) {
+  const auto& fields = find(format().integrators, "whitted")->fields;
+  if (const auto values = reader.mapping(value, fields, "the integrator whitted"))
+    reader.table(*values, fields, whitted);
+}
+
+/// The light whose N.L a view shows: one by name, or the only one there is. The lights have been read.
+void choose_light(Reader& reader, const Values& values, const std::vector<Light>& lights,
+                  ViewSettings& view) {
+  std::vector<std::string> names;
+  for (const Light& light : lights) names.push_back(light.name);
+  if (const Value* given = values.find("light")) {
+    if (!view.light.empty() && std::find(names.begin(), names.end(), view.light) == names.end())
+      reader.error(given->place(), "there is no light '" + view.light + "'",
+                   names.empty() ? "the scene has no lights" : suggestion(view.light, names));
+  } else if (view.show == View::cosine && names.size() == 1) {
+    view.light = names[0];
+  } else if (view.show == View::cosine) {
+    reader.error(values.find("show")->place(), "the view 'cosine' needs 'light': it shows N.L of one light",
+                 names.empty()
+                     ? "the scene has no lights"
+                     : "integrator: {view: {show: cosine, light: NAME}}, with NAME one of: " + join(names));
+  }
+}
+
+void read_view(Reader& reader, const Value& value, Scene& scene) {
+  const auto& fields = find(format().integrators, "view")->fields;
+  const auto values = reader.mapping(value, fields, "the integrator view");
+  if (!values) return;
+  ViewSettings view;
+  reader.table(*values, fields, view);
+  reader.table(*values, fields, scene.whitted);
+  const Value* show = values->find("show");
+  if (show == nullptr || !reader.choice(*show, view.show)) return;
+  choose_light(reader, *values, scene.lights, view);
+  scene.view = view;
+}
+
+/// One of the two. But a setting from outside the file puts its integrator in the place of the file's; a view
+/// then counts rays by the `whitted` that is there, too.
+void read_integrator(Reader& reader, const Value& value, Scene& scene) {
   const auto values = reader.mapping(value, format().integrator.fields, "the integrator");
   if (!values) return;
   if (values->values.empty() && !values->unknown_keys)
     reader.error(value.place(), "'integrator' names none",
                  "it is one of: " + join(names_of(format().integrators)));
-  const Value* settings = values->find("whitted");
-  if (settings == nullptr) return;
-  const auto& fields = find(format().integrators, "whitted")->fields;
-  if (const auto inner = reader.mapping(*settings, fields, "the integrator whitted"))
-    reader.table(*inner, fields, whitted);
+  const Value *whitted = values->find("whitted"), *view = values->find("view");
+  if (whitted != nullptr) read_whitted(reader, *whitted, scene.whitted);
+  if (view == nullptr) return;
+  const Node* show = value_of(*view->node, "show");
+  const bool from_outside = view->key->source > 0 || (show != nullptr && show->source > 0);
+  if (whitted == nullptr || from_outside || whitted->key->source == 0) read_view(reader, *view, scene);
+  if (whitted == nullptr || whitted->key->source != view->key->source || show == nullptr ||
+      show->source != view->key->source)
+    return;
+  const Value &first = values->values[0], &second = values->values[1];
+  reader.error(*second.key, second.label + " stands beside " + first.label,
+               "a picture is made by one of them; 'lambent render --view' shows any scene's views");
 }
 
 /// A name that may be given once only; the default where none is given.
@@ -286,7 +334,6 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
       if (const auto film = reader.mapping(*v, f.film.fields, "the film"))
         reader.table(*film, f.film.fields, scene.film);
     if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
-    if (const Value* v = top->find("integrator")) read_integrator(reader, *v, scene.whitted);
     if (const Value* v = top->find("background"))
       reader.color(*v, limits(*find(f.top.fields, "background")), scene.background);
     if (const Value* v = top->find("lights"))
@@ -295,6 +342,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         for (std::size_t i = 0; i < lights->size(); ++i)
           read_light(reader, (*lights)[i], i + 1, scene, taken);
       }
+    if (const Value* v = top->find("integrator")) read_integrator(reader, *v, scene);
     if (const Value* v = top->find("materials")) read_materials(reader, *v, scene);
     if (const Value* v = top->find("objects"))
       if (const auto objects = reader.list(*v, "object")) {
@@ -302,6 +350,9 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         for (std::size_t i = 0; i < objects->size(); ++i)
           object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
       }
+    if (scene.view && scene.film.layers)
+      reader.error(*value_of(*top->find("film")->node, "layers"), "a view has no layers",
+                   "layers are what the colours of 'whitted' are made of; leave out one of the two");
   }
   if (!reader.good()) throw InputError(reader.errors());
   std::vector<Diagnostic> faults = validate(scene);

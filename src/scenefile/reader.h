@@ -97,6 +97,7 @@ class Reader {
   void member_of(const Value& value, const Range& range, Kind, double& out) { number(value, range, out); }
   void member_of(const Value& value, const Range& range, Kind, int& out) { integer(value, range, out); }
   void member_of(const Value& value, const Range&, Kind, bool& out) { boolean(value, out); }
+  void member_of(const Value& value, const Range&, Kind, std::string& out) { text(value, "text", out); }
   void member_of(const Value& value, const Range& range, Kind, Rgb& out) { color(value, range, out); }
   void member_of(const Value& value, const Range& range, Kind kind, Vec3<double>& out) {
     kind == Kind::direction ? direction(value, range, out) : vector(value, range, out);

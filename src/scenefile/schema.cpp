@@ -154,7 +154,7 @@ std::string scene_schema() {
   definitions["attenuation"] = object_of(f.attenuation);
   definitions["attenuation"]["minProperties"] = 1;
   definitions["integrator"] = object_of(f.integrator);
-  definitions["integrator"]["minProperties"] = 1;
+  definitions["integrator"]["oneOf"] = one_of_keys(names_of(f.integrators));
   for (const Section& integrator : f.integrators) definitions[integrator.name] = object_of(integrator);
   definitions["light"] = one_kind_of(f.light, f.lights);
   definitions["material"] = object_of(f.material);

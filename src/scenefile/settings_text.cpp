@@ -20,7 +20,7 @@ Metadata settings_metadata(const Scene& scene) {
                    text_of(i.attenuation.value_or(model.attenuation)),
                    text_of(i.ambient_attenuation.value_or(model.ambient_attenuation)),
                    settings_text(i, Wanted::all));
-  s += fmt::format("integrator: {{whitted: {{{}}}}}\n", settings_text(scene.whitted, Wanted::all));
+  s += fmt::format("integrator: {}\n", integrator_text(scene));
   s += fmt::format("background: {}\n", text_of(scene.background));
   if (!scene.lights.empty()) s += "lights:\n";
   for (const Light& light : scene.lights) s += fmt::format("  - {}\n", light_text(light, Wanted::all));

@@ -18,6 +18,7 @@ std::string plain(double v) { return fmt::format("{:.6g}", v); }
 std::string plain(const Vec3<double>& v) { return plain(v.x) + " " + plain(v.y) + " " + plain(v.z); }
 std::string plain(const Rgb& v) { return plain(v[0]) + " " + plain(v[1]) + " " + plain(v[2]); }
 std::string plain(int v) { return std::to_string(v); }
+std::string plain(const std::string& v) { return v; }
 std::string plain(bool v) { return v ? "true" : "false"; }
 
 /// "position 3 4 4, intensity 8": what is required, and what is not as it is by default.
@@ -65,6 +66,18 @@ std::string camera_text(const Camera& camera) {
                      plain(camera.eye), plain(camera.target));
 }
 
+std::string integrator_summary(const Scene& scene) {
+  const WhittedSettings& whitted = scene.whitted;
+  const std::string tracing = fmt::format("whitted, max_depth {}, shadows {}", whitted.max_depth,
+                                          !whitted.shadows          ? "off"
+                                          : whitted.colored_shadows ? "coloured"
+                                                                    : "opaque");
+  if (!scene.view) return tracing;
+  const std::string view = "view of " + text_of(scene.view->show);
+  if (scene.view->show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view->light);
+  return scene.view->show == View::rays ? view + ": " + tracing : view;
+}
+
 std::string model_text(const Illumination& illumination) {
   const ModelInfo& model = info(illumination.model);
   return fmt::format("{}, attenuation {}, ambient attenuation {}", model.name,
@@ -80,13 +93,11 @@ SceneSummary summarize(const ScenePtr& pointer) {
   summary.name = scene.name;
   summary.width = scene.image.width;
   summary.height = scene.image.height;
-  summary.samples = scene.image.adaptive ? scene.image.adaptive->max : scene.image.samples;
+  const auto& adaptive = scene.image.adaptive;
+  summary.samples = !adaptive ? scene.image.samples : scene.view ? adaptive->start : adaptive->max;
   summary.camera = camera_text(scene.camera);
   summary.model = model_text(scene.illumination);
-  summary.integrator = fmt::format("whitted, max_depth {}, shadows {}", scene.whitted.max_depth,
-                                   !scene.whitted.shadows          ? "off"
-                                   : scene.whitted.colored_shadows ? "coloured"
-                                                                   : "opaque");
+  summary.integrator = integrator_summary(scene);
   const Bounds box = bounds(scene);
   const double lower[] = {box.lower.x, box.lower.y, box.lower.z},
                upper[] = {box.upper.x, box.upper.y, box.upper.z};

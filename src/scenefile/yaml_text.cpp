@@ -13,6 +13,14 @@ std::string yaml_quoted(std::string_view text) {
   return result + '"';
 }
 
+std::string integrator_text(const Scene& scene) {
+  const std::string whitted = settings_text(scene.whitted, Wanted::all);
+  if (!scene.view) return fmt::format("{{whitted: {{{}}}}}", whitted);
+  const std::string view = settings_text(*scene.view, Wanted::what_differs);
+  return fmt::format("{{view: {{show: {}, {}{}{}}}}}", text_of(scene.view->show), view,
+                     view.empty() ? "" : ", ", whitted);
+}
+
 std::string light_text(const Light& light, Wanted wanted) {
   return with_light(light.light, [&](const auto& one) {
     return fmt::format("{{name: {}, {}: {{{}}}}}", yaml_quoted(light.name),

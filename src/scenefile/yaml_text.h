@@ -21,6 +21,7 @@ std::string yaml_quoted(std::string_view text);
 template <class T> std::string value_text(const T& value) {
   if constexpr (std::is_same_v<T, bool>) return value ? "true" : "false";
   else if constexpr (std::is_same_v<T, int>) return fmt::format("{}", value);
+  else if constexpr (std::is_same_v<T, std::string>) return yaml_quoted(value);
   else return text_of(value);
 }
 
@@ -49,6 +50,9 @@ inline std::string samples_text(const ImageSettings& image) {
   if (!image.adaptive) return value_text(image.samples);
   return fmt::format("{{adaptive: {{{}}}}}", settings_text(*image.adaptive, Wanted::all));
 }
+
+/// "{whitted: {max_depth: 5, ...}}", or "{view: {show: normals, ...}}": the scene's integrator.
+std::string integrator_text(const Scene& scene);
 
 /// "{name: "key", point: {position: [3, 4, 4]}}".
 std::string light_text(const Light& light, Wanted wanted);

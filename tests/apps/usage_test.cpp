@@ -53,6 +53,12 @@ TEST(Usage, MistakesAreNamedWithTheNearestRemedy) {
       {{"render", "scene.yaml", "--threads", "99999999999"},
        "error: --threads wants a whole number, 0 or more, not '99999999999'\n"},
       {{"render", "scene.yaml", "--tile", "0"}, "error: --tile wants a whole number, 1 or more, not '0'\n"},
+      {{"render", "scene.yaml", "--view", "nromals"},
+       "--set integrator.view.show=nromals: error: 'show' is 'nromals', which is not known here\n"
+       "    nromals\n    ^\n    hint: did you mean 'normals'?\n"},
+      {{"render", "scene.yaml", "--view", "uv", "--layers"},
+       "--set film.layers=true: error: a view has no layers\n    true\n    ^\n"
+       "    hint: layers are what the colours of 'whitted' are made of; leave out one of the two\n"},
       {{"render", "scene.yaml", "--bits", "12"}, "error: --bits is 8 or 16, not '12'\n"},
       {{"render", "scene.yaml", "--set", "samples"},
        "error: --set wants path.to.key=value, not 'samples'\n    hint: for example --set image.samples=16\n"},

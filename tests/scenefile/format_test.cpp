@@ -112,6 +112,12 @@ TEST(Schema, AcceptsWhatTheReaderAcceptsAndRefusesTheRest) {
   agree("illumination: {attenuation: {}}\n", false);
   agree("illumination: {attenuation: 1/r^3}\n", false);
   agree("integrator: {}\n", false);
+  agree("integrator: {whitted: {max_depth: 3}}\n", true);
+  agree("integrator: {view: {show: depth}}\n", true);
+  agree("integrator: {view: {show: rays, max_depth: 3}}\n", true);
+  agree("integrator: {view: {}}\n", false);
+  agree("integrator: {view: {show: everything}}\n", false);
+  agree("integrator: {whitted: {}, view: {show: depth}}\n", false);
   agree("lights: []\n", true);
   agree("lights: [{point: {position: [0, 1, 0]}, spot: {position: [0, 1, 0], target: [0, 0, 0]}}]\n", false);
   agree("lights: [{name: a}]\n", false);

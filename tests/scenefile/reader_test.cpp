@@ -239,7 +239,7 @@ TEST(ReaderMessages, Values) {
 }
 
 TEST(ReaderMessages, Structure) {
-  EXPECT_EQ(only(head + "integrator: {}\n"), "'integrator' names none | it is one of: whitted");
+  EXPECT_EQ(only(head + "integrator: {}\n"), "'integrator' names none | it is one of: whitted, view");
   EXPECT_EQ(only(head + "lights: {}\n"), "'lights' must be a list, not a mapping | ");
   EXPECT_EQ(only(head + "lights: [{name: a}]\n"),
             "this light has no kind | it is one of: " + join(names_of(format().lights)));
@@ -267,9 +267,10 @@ TEST(ReaderMessages, Structure) {
   EXPECT_EQ(only("lambent: 1\ncamera: {eye: [0, 5, 0], target: [0, 0, 0]}\n"),
             "'up' lies along the way from 'eye' to 'target' | to look straight up or down give another 'up', "
             "such as [0, 0, -1]");
-  EXPECT_EQ(only("- 1\n- 2\n"),
-            "the scene must be a mapping, not a list | its keys are: lambent, camera, image, film, illumination, "
-            "integrator, background, lights, materials, objects");
+  EXPECT_EQ(
+      only("- 1\n- 2\n"),
+      "the scene must be a mapping, not a list | its keys are: lambent, camera, image, film, illumination, "
+      "integrator, background, lights, materials, objects");
   EXPECT_EQ(
       only(head + "---\n" + head),
       "a second YAML document begins here | a scene file holds one; remove the line '---' and what follows");
