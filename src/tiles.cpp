@@ -49,6 +49,7 @@ struct Worker {
   std::vector<double> layer_sums;
   std::vector<FirstHit> first_hits;
   PixelHits hits;
+  LayerBook::Work layer_work;
 };
 
 /// How far the pattern's samples lie from the pixel's centre.
@@ -140,7 +141,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
       worker.hits.clear();
       for (std::size_t s = 0; s < distances.size(); ++s)
         worker.hits.add(worker.first_hits[p * distances.size() + s], distances[s]);
-      film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, to);
+      film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, worker.layer_work, to);
     }
   });
   return run;

@@ -48,11 +48,12 @@ bool AdaptiveFilm::needs_more(int x, int y) const {
 }
 
 void AdaptiveFilm::develop(Film& film) const {
+  LayerBook::Work work;
   for (std::size_t p = 0; p < pixels_.size(); ++p) {
     float* to = &film.values[p * std::size_t(film.channels)];
     const int samples = std::max(1, pixels_[p].samples);
     for (int c = 0; c < color_channels; ++c) to[c] = float(pixels_[p].sum[c] / samples);
-    if (film.layers) film.layers->write(layer_sums(p), samples, hits_[p], to);
+    if (film.layers) film.layers->write(layer_sums(p), samples, hits_[p], work, to);
   }
 }
 

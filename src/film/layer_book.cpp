@@ -109,14 +109,14 @@ void apportion(const double* layers, int count, float total, float* floats) {
     for (int i = 0; i < count; ++i) floats[i] = total == 0 ? 0.0f : float(layers[i]);
     return;
   }
-  int exponent = 0;
-  std::frexp(total, &exponent);
-  const double u = std::ldexp(
-      1.0, std::max(exponent - std::numeric_limits<float>::digits,
-                    std::numeric_limits<float>::min_exponent - std::numeric_limits<float>::digits));
-  double missing = total / u;  // all in units of u: whole numbers below 2^24, which no sum rounds
+  // u = ulp(total), by total's exponent; the smallest float has it where total is subnormal.
+  const std::uint32_t exponent = std::max(std::bit_cast<std::uint32_t>(total) >> 23, 1u);
+  const double u = std::bit_cast<double>(std::uint64_t(exponent + 1023 - 150) << 52),
+               units = std::bit_cast<double>(std::uint64_t(1023 + 150 - exponent) << 52);
+  double missing = total * units;  // all in units of u: whole numbers up to 2^24, which no sum rounds
   for (int i = 0; i < count; ++i) {
-    const double whole = std::nearbyint(layers[i] / u);
+    constexpr double magic = 0x1.8p52;  // adding it rounds to the nearest whole number
+    const double whole = (layers[i] * units + magic) - magic;
     floats[i] = float(whole);
     missing -= whole;
   }
@@ -126,7 +126,7 @@ void apportion(const double* layers, int count, float total, float* floats) {
     double most = -std::numeric_limits<double>::infinity();
     for (int i = 0; i < count; ++i) {
       if (!(layers[i] > 0) || (step < 0 && floats[i] < 1)) continue;
-      const double short_by = step * (layers[i] / u - floats[i]);
+      const double short_by = step * (layers[i] * units - floats[i]);
       if (short_by > most) most = short_by, best = i;
     }
     if (best < 0) break;
@@ -195,41 +195,47 @@ void LayerBook::add_cryptomatte(const std::string& name, const std::vector<std::
   metadata_.emplace_back(key + "manifest", manifest + "}");
 }
 
-void LayerBook::write_shares(std::vector<std::pair<float, double>> shares, float* to) const {
-  std::stable_sort(shares.begin(), shares.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+void LayerBook::write_shares(Shares& shares, float* to) const {
+  if (shares.size() > 1)
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
   const std::size_t room = std::size_t(crypto_levels_) * 2;
-  std::fill_n(to, room * 2, 0.0f);
-  for (std::size_t i = 0; i < std::min(shares.size(), room); ++i)
-    to[2 * i] = shares[i].first, to[2 * i + 1] = float(shares[i].second);
+  for (std::size_t i = 0; i < room; ++i) {
+    const bool there = i < shares.size();
+    to[2 * i] = there ? shares[i].first : 0.0f;
+    to[2 * i + 1] = there ? float(shares[i].second) : 0.0f;
+  }
 }
 
-void LayerBook::write(const double* sums, double samples, const PixelHits& hits, float* pixel) const {
+void LayerBook::write_layers(const double* layers, double scale, Work& work, float* pixel) const {
   const int count = plan_.count();
-  std::vector<double> layers(static_cast<std::size_t>(count));
-  std::vector<float> floats(static_cast<std::size_t>(count));
-  float* to = pixel + color_channels;
+  work.layers.resize(std::size_t(count));
+  work.floats.resize(std::size_t(count));
   for (int c = 0; c < color_channels; ++c) {
-    for (int i = 0; i < count; ++i) layers[std::size_t(i)] = sums[i * color_channels + c] / samples;
-    apportion(layers.data(), count, pixel[c], floats.data());
-    for (int i = 0; i < count; ++i) to[i * color_channels + c] = floats[std::size_t(i)];
+    for (int i = 0; i < count; ++i) work.layers[std::size_t(i)] = layers[i * color_channels + c] / scale;
+    apportion(work.layers.data(), count, pixel[c], work.floats.data());
+    for (int i = 0; i < count; ++i) pixel[(i + 1) * color_channels + c] = work.floats[std::size_t(i)];
   }
-  to += count * color_channels;
+}
+
+void LayerBook::write(const double* sums, double samples, const PixelHits& hits, Work& work,
+                      float* pixel) const {
+  write_layers(sums, samples, work, pixel);
+  float* to = pixel + (plan_.count() + 1) * color_channels;
   const FirstHit& hit = hits.central;
   *to++ = hit.object < 0 ? std::numeric_limits<float>::infinity() : hit.R;
   for (const float n : hit.N) *to++ = n;
   for (const float p : hit.P) *to++ = p;
   for (const double a : hits.albedo) *to++ = float(a / hits.samples);
   for (const float t : hit.uv) *to++ = t;
-  const auto as_ids = [&](const PixelHits::Shares& shares, const std::vector<float>& ids) {
-    std::vector<std::pair<float, double>> result;
-    for (const auto& [index, met] : shares)
-      result.emplace_back(ids[std::size_t(index)], double(met) / hits.samples);
-    write_shares(std::move(result), to);
+  for (const auto& [met, ids] :
+       {std::pair{&hits.objects, &object_ids_}, std::pair{&hits.materials, &material_ids_}}) {
+    work.shares.clear();
+    for (const auto& [index, share] : *met)
+      work.shares.emplace_back((*ids)[std::size_t(index)], double(share) / hits.samples);
+    write_shares(work.shares, to);
     to += crypto_levels_ * 4;
-  };
-  as_ids(hits.objects, object_ids_);
-  as_ids(hits.materials, material_ids_);
+  }
 }
 
 void LayerBook::merge(const float* const corners[4], float* pixel) const {
@@ -237,20 +243,16 @@ void LayerBook::merge(const float* const corners[4], float* pixel) const {
     return (double(corners[0][channel]) + corners[1][channel] + corners[2][channel] + corners[3][channel]) /
            4;
   };
-  const int count = plan_.count();
-  std::vector<double> layers(static_cast<std::size_t>(count));
-  std::vector<float> floats(static_cast<std::size_t>(count));
-  for (int c = 0; c < color_channels; ++c) {
-    for (int i = 0; i < count; ++i) layers[std::size_t(i)] = mean(std::size_t((i + 1) * color_channels + c));
-    apportion(layers.data(), count, pixel[c], floats.data());
-    for (int i = 0; i < count; ++i) pixel[(i + 1) * color_channels + c] = floats[std::size_t(i)];
-  }
-  const std::size_t data = std::size_t(count + 1) * color_channels;
+  Work work;
+  std::vector<double> layers;
+  const std::size_t data = std::size_t(plan_.count() + 1) * color_channels;
+  for (std::size_t i = color_channels; i < data; ++i) layers.push_back(mean(i));
+  write_layers(layers.data(), 1, work, pixel);
   for (std::size_t i = data; i < data + data_count; ++i)
     pixel[i] =
         i >= data + first_albedo && i < data + first_albedo + color_channels ? float(mean(i)) : corners[0][i];
   for (std::size_t at = data + data_count; at < channels_.size(); at += std::size_t(crypto_levels_) * 4) {
-    std::vector<std::pair<float, double>> shares;
+    Shares shares;
     for (int corner = 0; corner < 4; ++corner) {
       const float id = corners[corner][at], covered = corners[corner][at + 1] / 4;
       if (covered == 0) continue;
@@ -259,7 +261,7 @@ void LayerBook::merge(const float* const corners[4], float* pixel) const {
       if (known == shares.end()) shares.emplace_back(id, covered);
       else known->second += covered;
     }
-    write_shares(std::move(shares), pixel + at);
+    write_shares(shares, pixel + at);
   }
 }
 

@@ -41,16 +41,24 @@ class LayerBook {
   /// Cryptomatte's names and manifests; which light and what each layer is.
   const Metadata& metadata() const { return metadata_; }
 
+  using Shares = std::vector<std::pair<float, double>>;  ///< Ids, and how much of the pixel.
+  /// Memory to work in, for one thread.
+  struct Work {
+    std::vector<double> layers;
+    std::vector<float> floats;
+    Shares shares;
+  };
   /// Fills a pixel's channels after R, G, B, which must be there. The layers add up to these exactly
   /// (`apportion`).
   ///   sums  plan().count() * color_channels sums over `samples` samples
-  void write(const double* sums, double samples, const PixelHits& hits, float* pixel) const;
+  void write(const double* sums, double samples, const PixelHits& hits, Work& work, float* pixel) const;
   /// A pixel that is the mean of four others, which `write` has made of one sample each.
   void merge(const float* const corners[4], float* pixel) const;
 
  private:
   void add_cryptomatte(const std::string& name, const std::vector<std::string>& names);
-  void write_shares(std::vector<std::pair<float, double>> shares, float* to) const;
+  void write_layers(const double* layers, double scale, Work& work, float* pixel) const;
+  void write_shares(Shares& shares, float* to) const;
 
   LayerPlan plan_;
   int crypto_levels_;  ///< Each holds two ids and their coverage.
