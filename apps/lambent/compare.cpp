@@ -260,6 +260,10 @@ ExitCode run(const CompareCommand& command) {
   {
     const ScenePtr scene = load_scene(command.input, {command.set});
     const SceneSummary summary = summarize(scene);
+    if (summary.integrator.starts_with("view"))
+      throw usage_error(
+          fmt::format("'{}' shows a {}, which no model changes", command.input, summary.integrator),
+          "--set 'integrator={whitted: {}}' shows its colours");
     size = picture_size(command, summary);
     if (!command.quiet) {
       report(warnings(scene), most_warnings);

@@ -14,7 +14,7 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
   s.ks = color_symbol("Ks", material.specular);
   s.n = Traced::symbol("n", material.shininess);
   s.outside = Traced::symbol("side", ray.hit.outside ? 1 : -1);
-  s.to_camera = vector_symbol("C", -camera_record(derivation.scene->camera).forward);
+  s.to_camera = vector_symbol("E", -camera_record(derivation.scene->camera).forward);
   for (int i = 0; i < max_model_parameters; ++i) {
     if (!model.parameters[i].name) {
       s.own[i] = Traced(0);

@@ -255,6 +255,9 @@ TEST_F(Compare, MistakesTouchNoFile) {
       {{"scene.yaml", "--models", "oren_nayar_of_all"},
        fmt::format("error: unknown model 'oren_nayar_of_all'\n    hint: known are {}\n",
                    fmt::join(every_model(), ", "))},
+      {{"scene.yaml", "--set", "integrator.view.show=normals"},
+       "error: 'scene.yaml' shows a view of normals, which no model changes\n"
+       "    hint: --set 'integrator={whitted: {}}' shows its colours\n"},
       {{"scene.yaml", "--models", "phong,conventional,phong"}, "error: the model 'phong' is named twice\n"},
       {{"scene.yaml", "--models", "phong,"},
        "error: --models wants names with commas between them, not 'phong,'\n"
