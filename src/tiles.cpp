@@ -52,6 +52,10 @@ struct Worker {
   LayerBook::Work layer_work;
 };
 
+/// Pixels that are rendered at once where something is noted of each of their samples: so many that the notes
+/// take a few megabytes at most.
+std::size_t pixels_with_hits(int samples) { return std::size_t(std::max(1, (1 << 16) / samples)); }
+
 /// How far the pattern's samples lie from the pixel's centre.
 std::vector<double> distances_from_centre(const Frame& frame) {
   std::vector<double> result;
@@ -119,29 +123,30 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   const std::vector<double> distances = distances_from_centre(frame);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
     tiles.list_pixels_of(i, worker.pixels);
-    worker.sums.assign(worker.pixels.size() * color_channels, 0);
-    PixelTask task{worker.pixels.data(),
-                   std::uint32_t(worker.pixels.size()),
-                   0,
-                   frame.samples,
-                   worker.sums.data(),
-                   nullptr};
-    if (film.layers) {
-      worker.layer_sums.assign(worker.pixels.size() * columns, 0);
-      worker.first_hits.resize(worker.pixels.size() * std::size_t(frame.samples));
-      task.layer_sums = worker.layer_sums.data();
-      task.first_hits = worker.first_hits.data();
-    }
-    kernel.render(frame, task, worker.scratch, worker.counts);
-    for (std::size_t p = 0; p < worker.pixels.size(); ++p) {
-      float* to = film.pixel(worker.pixels[p].x, worker.pixels[p].y);
-      for (int c = 0; c < color_channels; ++c)
-        to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
-      if (!film.layers) continue;
-      worker.hits.clear();
-      for (std::size_t s = 0; s < distances.size(); ++s)
-        worker.hits.add(worker.first_hits[p * distances.size() + s], distances[s]);
-      film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, worker.layer_work, to);
+    const std::size_t at_a_time = film.layers ? pixels_with_hits(frame.samples) : worker.pixels.size();
+    for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
+      const Pixel* pixels = &worker.pixels[first];
+      const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
+      worker.sums.assign(count * color_channels, 0);
+      PixelTask task{pixels, std::uint32_t(count), 0, frame.samples, worker.sums.data(), nullptr};
+      if (film.layers) {
+        worker.layer_sums.assign(count * columns, 0);
+        worker.first_hits.resize(count * distances.size());
+        task.layer_sums = worker.layer_sums.data();
+        task.first_hits = worker.first_hits.data();
+      }
+      kernel.render(frame, task, worker.scratch, worker.counts);
+      for (std::size_t p = 0; p < count; ++p) {
+        float* to = film.pixel(pixels[p].x, pixels[p].y);
+        for (int c = 0; c < color_channels; ++c)
+          to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
+        if (!film.layers) continue;
+        worker.hits.clear();
+        for (std::size_t s = 0; s < distances.size(); ++s)
+          worker.hits.add(worker.first_hits[p * distances.size() + s], distances[s]);
+        film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, worker.layer_work,
+                           to);
+      }
     }
   });
   return run;
@@ -160,11 +165,12 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
       list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
 
   const int start = settings.adaptive->start, max = settings.adaptive->max;
-  const std::int64_t at_a_time = std::int64_t(size) * size;
   double progress = 0;
   for (int first = 0, end = start; !wanted.empty() && !run.cancelled;) {
     // How many goes there will be is not known: each counts as half of what is left.
     const double progress_then = end == max ? 1 : (1 + progress) / 2;
+    const std::int64_t at_a_time =
+        film.layers ? std::int64_t(pixels_with_hits(end - first)) : std::int64_t(size) * size;
     const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
     Crew(options, run).share(tasks, progress, progress_then, [&](std::int64_t i, Worker& worker) {
       const Pixel* pixels = &wanted[i * at_a_time];
@@ -232,8 +238,7 @@ ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& 
   };
 
   if (view.show != View::rays) {
-    // So many that what is known of their samples takes a few megabytes at most.
-    const auto at_a_time = std::size_t(std::max(1, (1 << 16) / samples));
+    const std::size_t at_a_time = pixels_with_hits(samples);
     Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
       tiles.list_pixels_of(i, worker.pixels);
       for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
