@@ -12,8 +12,10 @@ namespace {
 std::string text_of(const Vec3<double>& v) {
   return fmt::format("({}, {}, {})", short_number(v.x), short_number(v.y), short_number(v.z));
 }
+/// " (scene.yaml:7)": without folders, which would make lines of what should be read at a glance.
 std::string place_of(const Place& place) {
-  return place.line > 0 ? fmt::format(" ({}:{})", place.file, place.line) : "";
+  return place.line > 0 ? fmt::format(" ({}:{})", place.file.substr(place.file.rfind('/') + 1), place.line)
+                        : "";
 }
 
 class Telling {
