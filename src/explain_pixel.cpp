@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <thread>
-
 #include "explain/derivation.h"
 #include "explain/write.h"
 #include "film/film.h"
@@ -19,7 +17,7 @@ int adaptive_samples(const Scene& scene, const PreparedFrame& prepared, const Ke
                      int x, int y) {
   Film film(scene.image);
   TileOptions options;
-  options.threads = threads > 0 ? threads : std::max(1, int(std::thread::hardware_concurrency()));
+  options.threads = thread_count(threads);
   std::vector<int> samples;
   render_adaptively(prepared.frame, kernel, scene.image, film, options, &samples);
   return samples[std::size_t(y) * std::size_t(film.width) + std::size_t(x)];
@@ -39,9 +37,8 @@ DerivationPtr explain(const ScenePtr& scene, int x, int y, const ExplainOptions&
   }
   const Kernel& kernel = choose_kernel(options.isa);
   const auto prepared = prepare(*scene);
-  const int samples = image.adaptive && image.pattern != Pattern::corners
-                          ? adaptive_samples(*scene, *prepared, kernel, options.threads, x, y)
-                          : prepared->frame.samples;
+  const int samples = image.is_adaptive() ? adaptive_samples(*scene, *prepared, kernel, options.threads, x, y)
+                                          : prepared->frame.samples;
   return std::make_shared<Derivation>(derive(scene, *prepared, kernel, x, y, samples));
 }
 
@@ -50,10 +47,7 @@ int central_sample(const DerivationPtr& derivation) { return derivation->central
 std::vector<float> pixel_of(const DerivationPtr& derivation) {
   return {std::begin(derivation->pixel), std::end(derivation->pixel)};
 }
-bool adds_up(const DerivationPtr& derivation) {
-  return std::equal(std::begin(derivation->pixel), std::end(derivation->pixel),
-                    std::begin(derivation->rendered));
-}
+bool adds_up(const DerivationPtr& derivation) { return derivation->adds_up(); }
 
 std::string explanation(const DerivationPtr& derivation, const ExplainText& options) {
   if (options.sample && (*options.sample < 0 || *options.sample >= sample_count(derivation))) {

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "describe.h"
 #include "film/film.h"
@@ -40,7 +39,7 @@ std::uint64_t peak_memory_bytes() {
 
 /// How many samples of the frame's a view takes: it has no colours by which a pixel could need more.
 int view_samples(const ImageSettings& image, const Frame& frame) {
-  return image.adaptive && image.pattern != Pattern::corners ? image.adaptive->start : frame.samples;
+  return image.is_adaptive() ? image.adaptive->start : frame.samples;
 }
 
 }  // namespace
@@ -55,8 +54,7 @@ std::vector<std::string> available_isas() {
 
 RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const Kernel& kernel = choose_kernel(options.isa);
-  const int threads =
-      options.threads > 0 ? options.threads : std::max(1, int(std::thread::hardware_concurrency()));
+  const int threads = thread_count(options.threads);
   Clock clock;
   RenderResult result;
   Stats& stats = result.stats;
@@ -74,7 +72,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
     view = render_view(prepared->frame, kernel, view_record(*scene, *scene->view),
                        view_samples(scene->image, prepared->frame), film, tile_options);
   const TileRun run = scene->view ? view.tiles
-                      : scene->image.adaptive && scene->image.pattern != Pattern::corners
+                      : scene->image.is_adaptive()
                           ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
                           : render_tiles(prepared->frame, kernel, film, tile_options);
   stats.seconds.render = clock.lap();

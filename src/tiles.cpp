@@ -116,6 +116,10 @@ class Crew {
 
 }  // namespace
 
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
   const Tiles tiles{film, options.tile_size};

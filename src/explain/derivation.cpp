@@ -1,6 +1,11 @@
 #include "explain/derivation.h"
 
+#include <algorithm>
+
 #include "accel/surface.h"
+#include "film/film.h"
+#include "image/srgb.h"
+#include "lambent/image.h"
 
 namespace lambent {
 namespace {
@@ -50,9 +55,14 @@ class Notes {
   void light(const SeenLight& seen) {
     DerivedRay& ray = to_.rays[seen.ray];
     DerivedLight& light = ray.lights[std::size_t(seen.light)];
-    light.reaches = true;
     light.seen = seen;
+    light.NL = dot(ray.hit.N, seen.L);
     if (seen.asked) light.obstacles = on_the_way(ray.hit.start, seen.L, seen.r);
+    const bool blocked = !light.obstacles.empty() && light.obstacles.back().blocks;
+    light.state = !(light.NL > 0)         ? LightState::behind
+                  : is_black(seen.I)      ? LightState::dark
+                  : blocked || !seen.open ? LightState::blocked
+                                          : LightState::visible;
   }
   void term(const SeenTerm& seen) {
     DerivedRay& ray = to_.rays[seen.ray];
@@ -110,9 +120,11 @@ class Notes {
 
 }  // namespace
 
-int Derivation::model_of(const DerivedRay& ray) const {
-  const Material& material = scene->materials[ray.hit.material];
-  return int(material.model.value_or(scene->illumination.model));
+bool Derivation::adds_up() const { return std::equal(pixel, pixel + color_channels, rendered); }
+
+int Derivation::code(int channel) const {
+  const double linear = pixel[channel];
+  return quantize(scene->image.encoding == Encoding::srgb ? srgb_from_linear(linear) : linear, 255);
 }
 
 Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
@@ -121,7 +133,6 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   const bool corners = scene->image.pattern == Pattern::corners;
   result.scene = std::move(scene);
   result.x = x, result.y = y;
-  std::copy(std::begin(prepared.frame.fading), std::end(prepared.frame.fading), result.fading);
 
   // With Pattern::corners the samples are four pixels of the film, of one sample each.
   std::vector<Pixel> pixels{{x, y}};
@@ -156,19 +167,19 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
         sample.color[c] += result.rays[number].seen.weight[c] * result.rays[number].color[c];
     result.sum = result.sum + sample.color;
   }
-  // As the film does it: a mean for each of its pixels, and with Pattern::corners the mean of four of them.
-  const auto develop = [&](const auto& sum_of, float* to) {
-    for (int c = 0; c < color_channels; ++c) {
-      std::vector<float> film;
-      for (std::size_t pixel = 0; pixel < pixels.size(); ++pixel)
-        film.push_back(float(sum_of(pixel, c) / samples));
-      to[c] = corners ? float((double(film[0]) + film[1] + film[2] + film[3]) / 4) : film[0];
-    }
+  // Developed as a picture of this pixel alone.
+  ImageSettings alone = result.scene->image;
+  alone.width = alone.height = 1;
+  const auto developed = [&](const auto& sum_of, float* to) {
+    Film film(alone);
+    for (std::size_t p = 0; p < pixels.size(); ++p)
+      for (int c = 0; c < color_channels; ++c)
+        film.values[p * color_channels + std::size_t(c)] = float(sum_of(p, c) / samples);
+    std::ranges::copy(develop(std::move(film), alone).data, to);
   };
-  develop([&](std::size_t pixel, int c) { return corners ? result.samples[pixel].color[c] : result.sum[c]; },
-          result.pixel);
-  develop([&](std::size_t pixel, int c) { return sums[pixel * color_channels + std::size_t(c)]; },
-          result.rendered);
+  developed([&](std::size_t p, int c) { return corners ? result.samples[p].color[c] : result.sum[c]; },
+            result.pixel);
+  developed([&](std::size_t p, int c) { return sums[p * color_channels + std::size_t(c)]; }, result.rendered);
   return result;
 }
 

@@ -17,9 +17,19 @@ struct Obstacle {
   bool blocks;      ///< False: it lets light through, times its `transmit`.
 };
 
+/// Why a light does not shine on a surface, the first that holds; or that it does.
+enum class LightState {
+  out_of_reach,  ///< The renderer has not looked at it.
+  behind,        ///< N.L <= 0
+  dark,          ///< It sends nothing this way.
+  blocked,
+  visible,
+};
+
 struct DerivedLight {
-  bool reaches = false;  ///< Whether the renderer looked at it at all: not at lights that cannot reach.
+  LightState state = LightState::out_of_reach;
   SeenLight seen{};
+  double NL = 0;
   std::vector<Obstacle> obstacles;  ///< Up to the first that blocks.
   Rgb diffuse{}, specular{};
 };
@@ -54,9 +64,13 @@ struct Derivation {
   float pixel[color_channels] = {};     ///< The mean, as the film keeps it.
   float rendered[color_channels] = {};  ///< The same from the renderer's own sum.
   std::vector<AskedRay> asked;
-  FadingRecord fading[model_count];
 
-  int model_of(const DerivedRay& ray) const;
+  const Material& material_of(const DerivedRay& ray) const { return scene->materials[ray.hit.material]; }
+  ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
+  /// Whether the terms are the rendered pixel, in every bit.
+  bool adds_up() const;
+  /// A channel of the pixel in an 8-bit PNG.
+  int code(int channel) const;
 };
 
 /// Renders pixel x, y once more, and notes what is told. `samples`: how many of the frame's pattern it gets.

@@ -4,8 +4,8 @@ namespace lambent {
 namespace {
 
 Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, const DerivedRay& ray) {
-  const Material& material = derivation.scene->materials[ray.hit.material];
-  const ModelInfo& model = info(ModelId(derivation.model_of(ray)));
+  const Material& material = derivation.material_of(ray);
+  const ModelInfo& model = info(derivation.model_of(ray));
   Surface<Traced, Color<Traced>> s;
   s.N = vector_symbol("N", ray.hit.N);
   s.V = vector_symbol("V", ray.hit.V);
@@ -20,10 +20,7 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
       s.own[i] = Traced(0);
       continue;
     }
-    const auto given = material.own.find(model.parameters[i].name);
-    s.own[i] =
-        Traced::symbol(model.parameters[i].name,
-                       given == material.own.end() ? model.parameters[i].default_value : given->second);
+    s.own[i] = Traced::symbol(model.parameters[i].name, own_number(material, model.parameters[i]));
   }
   return s;
 }
@@ -33,24 +30,22 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
 MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
   Formulas formulas;
   const Illumination& illumination = derivation.scene->illumination;
-  const int model = derivation.model_of(ray);
+  const ModelId model = derivation.model_of(ray);
   const auto s = surface_symbols(derivation, ray);
-  const Traced faded = attenuate(derivation.fading[model].ambient, Traced::symbol("R", ray.hit.R),
+  const Traced faded = attenuate(ambient_attenuation_of(illumination, model), Traced::symbol("R", ray.hit.R),
                                  Traced(illumination.minimum_distance));
   const Color<Traced> Ia = color_symbol("Ia", illumination.ambient) * faded;
-  return with_model(ModelId(model),
-                    [&]<class Model>() { return simplified(formulas, ambient_term<Model>(s, Ia)); });
+  return with_model(model, [&]<class Model>() { return simplified(formulas, ambient_term<Model>(s, Ia)); });
 }
 
 LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, int l) {
   const SeenLight& light = ray.lights[std::size_t(l)].seen;
   LightFormulas result;
-  result.NL = dot(ray.hit.N, light.L);
   {
     Formulas formulas;
     const Traced faded =
-        attenuate(derivation.fading[derivation.model_of(ray)].attenuation, Traced::symbol("r", light.r),
-                  Traced(derivation.scene->illumination.minimum_distance));
+        attenuate(attenuation_of(derivation.scene->illumination, derivation.model_of(ray)),
+                  Traced::symbol("r", light.r), Traced(derivation.scene->illumination.minimum_distance));
     Color<Traced> I = faded * color_symbol("Il", light.I);
     // 1 where nothing is in the way.
     if (!(light.share == grey(1.0))) I = color_symbol("T", light.share) * I;
@@ -63,7 +58,7 @@ LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray
   const Arriving<Traced, Color<Traced>> arriving{vector_symbol("L", light.L),
                                                  color_symbol("I", light.arriving), color_symbol("Il", Il),
                                                  Traced::symbol("fade", light.faded * share_of(light.I, Il))};
-  with_model(ModelId(derivation.model_of(ray)), [&]<class Model>() {
+  with_model(derivation.model_of(ray), [&]<class Model>() {
     const auto terms = Model::evaluate(s, arriving);
     result.diffuse = simplified(formulas, terms.diffuse);
     result.specular = simplified(formulas, terms.specular);

@@ -10,7 +10,6 @@ struct LightFormulas {
   MathTerm arriving;  ///< I: Il, faded, and what is left of it on the way.
   MathTerm diffuse, specular;
   std::vector<Formulas::Definition> definitions;  ///< Vectors that the model made: R, H.
-  double NL;
 };
 
 /// Ka Ia / R, with its numbers.

@@ -4,8 +4,6 @@
 #include "explain/terms.h"
 #include "explain/write.h"
 #include "film/layer_book.h"
-#include "image/srgb.h"
-#include "lambent/image.h"
 #include "lambent/lambent.h"
 
 namespace lambent {
@@ -51,16 +49,11 @@ class Telling {
     result["sum"] = json(d_.sum);
     Rgb linear;
     Json code = Json::array();
-    const bool encoded = scene_.image.encoding == Encoding::srgb;
-    for (int c = 0; c < color_channels; ++c) {
-      linear[c] = d_.pixel[c];
-      code.push_back(
-          quantize(encoded ? srgb_from_linear(linear[c]) : std::min(std::max(linear[c], 0.0), 1.0), 255));
-    }
+    for (int c = 0; c < color_channels; ++c) linear[c] = d_.pixel[c], code.push_back(d_.code(c));
     result["linear"] = json(linear);
-    result["encoding"] = encoded ? "srgb" : "none";
+    result["encoding"] = scene_.image.encoding == Encoding::srgb ? "srgb" : "none";
     result["code"] = code;
-    result["adds_up"] = std::equal(d_.pixel, d_.pixel + color_channels, d_.rendered);
+    result["adds_up"] = d_.adds_up();
     return result;
   }
 
@@ -97,16 +90,16 @@ class Telling {
   }
 
   Json hit(const DerivedRay& ray) const {
-    const Material& material = scene_.materials[ray.hit.material];
-    const int model = d_.model_of(ray);
+    const Material& material = d_.material_of(ray);
+    const ModelInfo& model = info(d_.model_of(ray));
     Json result;
     result["object"] = objects_[ray.object];
     result["object_place"] = json(scene_.objects[ray.object].place);
     result["primitive"] = ray.primitive;
     result["material"] = materials_[ray.hit.material];
     result["material_place"] = json(material.place);
-    result["model"] = info(ModelId(model)).name;
-    result["equation"] = info(ModelId(model)).equation;
+    result["model"] = model.name;
+    result["equation"] = model.equation;
     result["t"] = ray.hit.t;
     result["R"] = ray.hit.R;
     result["P"] = json(ray.hit.P);
@@ -126,6 +119,22 @@ class Telling {
     return result;
   }
 
+  static const char* word_for(LightState state) {
+    switch (state) {
+      case LightState::out_of_reach:
+        return "out of reach";
+      case LightState::behind:
+        return "behind";
+      case LightState::dark:
+        return "dark";
+      case LightState::blocked:
+        return "blocked";
+      case LightState::visible:
+        break;
+    }
+    return "visible";
+  }
+
   Json light(const DerivedRay& ray, int l) const {
     const DerivedLight& light = ray.lights[std::size_t(l)];
     Json result;
@@ -133,20 +142,12 @@ class Telling {
     result["kind"] = with_light(scene_.lights[std::size_t(l)].light,
                                 [](const auto& one) { return std::decay_t<decltype(one)>::info.name; });
     result["place"] = json(scene_.lights[std::size_t(l)].place);
+    result["state"] = word_for(light.state);
+    if (light.state == LightState::out_of_reach) return result;
     const SeenLight& seen = light.seen;
-    if (!light.reaches) {
-      result["state"] = "out of reach";
-      return result;
-    }
-    const LightFormulas formulas = light_formulas(d_, ray, l);
-    const bool blocked = !light.obstacles.empty() && light.obstacles.back().blocks;
-    result["state"] = !(formulas.NL > 0)      ? "behind"
-                      : is_black(seen.I)      ? "dark"
-                      : blocked || !seen.open ? "blocked"
-                                              : "visible";
     result["L"] = json(seen.L);
     result["r"] = finite(seen.r);
-    result["N.L"] = formulas.NL;
+    result["N.L"] = light.NL;
     result["Il"] = json(seen.I);
     result["attenuation"] = seen.faded;
     result["share"] = json(seen.share);
@@ -162,6 +163,7 @@ class Telling {
       result["diffuse"] = result["specular"] = nullptr;
       return result;
     }
+    const LightFormulas formulas = light_formulas(d_, ray, l);
     result["vectors"] = Json::object();
     for (const auto& definition : formulas.definitions)
       result["vectors"][definition.name] = {{"equation", definition.formula},

@@ -3,8 +3,6 @@
 #include "explain/terms.h"
 #include "explain/write.h"
 #include "film/layer_book.h"
-#include "image/srgb.h"
-#include "lambent/image.h"
 
 namespace lambent {
 namespace {
@@ -66,7 +64,7 @@ class Telling {
 
   void tell_hit(const DerivedRay& ray) {
     const Object& object = scene_.objects[ray.object];
-    const Material& material = scene_.materials[ray.hit.material];
+    const Material& material = d_.material_of(ray);
     page_.line(fmt::format("meets {}{}, primitive {}, after {}{}", objects_[ray.object],
                            place_of(object.place), ray.primitive, short_number(ray.hit.t),
                            ray.hit.outside ? "" : ", from inside"));
@@ -78,10 +76,12 @@ class Telling {
     equation("N", text_of(ray.hit.N));
     equation("V", text_of(ray.hit.V));
     page_.equation("R", {written(grey(ray.hit.R), page_.notation())}, "the way from the eye");
-    const ModelInfo& model = info(ModelId(d_.model_of(ray)));
-    page_.line(fmt::format("model {}: Ka Ia{} + sum over the lights of {}", model.name,
-                           d_.fading[d_.model_of(ray)].ambient == AmbientAttenuation::none ? "" : " / R",
-                           model.equation));
+    const ModelInfo& model = info(d_.model_of(ray));
+    page_.line(fmt::format(
+        "model {}: Ka Ia{} + sum over the lights of {}", model.name,
+        ambient_attenuation_of(scene_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
+                                                                                                  : " / R",
+        model.equation));
   }
 
   void tell_terms(const DerivedRay& ray) {
@@ -100,32 +100,32 @@ class Telling {
     }
     if (!is_black(ray.emission)) {
       page_.equation("emission", {written(ray.emission, page_.notation())},
-                     place_of(scene_.materials[ray.hit.material].place));
+                     place_of(d_.material_of(ray).place));
       so_far = ray.emission + so_far;
     }
     page_.line("");
     page_.equation("I", {written(so_far, page_.notation())}, "what this surface sends back");
   }
 
-  static bool shines(const DerivedLight& light) { return light.reaches && !is_black(light.seen.arriving); }
+  static bool shines(const DerivedLight& light) { return !is_black(light.seen.arriving); }
 
   void tell_light(const DerivedRay& ray, int l) {
     const DerivedLight& light = ray.lights[std::size_t(l)];
     const Light& which = scene_.lights[std::size_t(l)];
     const std::string name = fmt::format("Light {}{}", which.name, place_of(which.place));
     page_.line("");
-    if (!light.reaches) return page_.line(name + ": does not reach this far");
+    if (light.state == LightState::out_of_reach) return page_.line(name + ": does not reach this far");
     const SeenLight& seen = light.seen;
-    const LightFormulas formulas = light_formulas(d_, ray, l);
     std::string where = fmt::format("{}: L = {}", name, text_of(seen.L));
     if (seen.r < 1e300) where += fmt::format(", r = {}", short_number(seen.r));
     page_.line(where);
     page_.begin();
-    if (!(formulas.NL > 0))
-      page_.line(fmt::format("behind the surface: N.L = {}", short_number(formulas.NL)));
-    else if (is_black(seen.I)) page_.line("dark in this direction");
+    if (light.state == LightState::behind)
+      page_.line(fmt::format("behind the surface: N.L = {}", short_number(light.NL)));
+    else if (light.state == LightState::dark) page_.line("dark in this direction");
     tell_obstacles(light);
     if (shines(light)) {
+      const LightFormulas formulas = light_formulas(d_, ray, l);
       term("I", formulas.arriving, seen.arriving);
       for (const auto& definition : formulas.definitions)
         page_.equation(definition.name,
@@ -202,17 +202,15 @@ class Telling {
     std::string codes;
     for (int c = 0; c < color_channels; ++c) {
       linear[c] = d_.pixel[c];
-      const double shown = encoded ? srgb_from_linear(linear[c]) : std::min(std::max(linear[c], 0.0), 1.0);
-      code[c] = quantize(shown, 255);
+      code[c] = d_.code(c);
       codes += fmt::format("{}{}", c ? " " : "", code[c]);
     }
     page_.equation("mean", {written(linear, page_.notation())}, "as the EXR holds it, linear");
     page_.swatch(fmt::format("in a PNG{}: {}  (#{:02x}{:02x}{:02x})", encoded ? ", sRGB-encoded" : "", codes,
                              code[0], code[1], code[2]),
                  code);
-    const bool exact = std::equal(d_.pixel, d_.pixel + color_channels, d_.rendered);
-    page_.line(exact ? "The terms add up to the rendered pixel, bit for bit."
-                     : "The terms do NOT add up to the rendered pixel: please report this.");
+    page_.line(d_.adds_up() ? "The terms add up to the rendered pixel, bit for bit."
+                            : "The terms do NOT add up to the rendered pixel: please report this.");
   }
 
   const Derivation& d_;

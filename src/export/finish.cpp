@@ -14,24 +14,17 @@ void Remarks::add(const Place& place, const std::string& rest) {
 
 namespace {
 
-Attenuation fading_of(const Scene& scene, ModelId model) {
-  return scene.illumination.attenuation.value_or(info(model).attenuation);
-}
-
-AmbientAttenuation ambient_fading_of(const Scene& scene, ModelId model) {
-  return scene.illumination.ambient_attenuation.value_or(info(model).ambient_attenuation);
-}
-
 double own(const Material& material, ModelId model, const std::string& name) {
-  if (const auto given = material.own.find(name); given != material.own.end()) return given->second;
   for (const ModelParameter& parameter : info(model).parameters)
-    if (parameter.name && name == parameter.name) return parameter.default_value;
+    if (parameter.name && name == parameter.name) return own_number(material, parameter);
   return 0;
 }
 
 }  // namespace
 
-Attenuation fading_of(const Scene& scene) { return fading_of(scene, scene.illumination.model); }
+Attenuation fading_of(const Scene& scene) {
+  return attenuation_of(scene.illumination, scene.illumination.model);
+}
 
 void remark_on_settings(const Scene& scene, Remarks& remarks) {
   const Attenuation fading = fading_of(scene);
@@ -51,13 +44,14 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
 }
 
 Finish finish_of(const Scene& scene, const Material& material, Remarks& remarks) {
-  const ModelId model = material.model.value_or(scene.illumination.model);
+  const ModelId model = model_of(scene, material);
   const std::string who = called("material", material.name);
   const auto remark = [&](const std::string& rest) { remarks.add(material.place, rest); };
   const bool highlight = !is_black(material.specular);
   const std::string model_name = info(model).name;
-  const bool ambient_fades = ambient_fading_of(scene, model) != AmbientAttenuation::none;
-  const bool fades_alone = !(fading_of(scene, model) == fading_of(scene)) && !scene.lights.empty();
+  const bool ambient_fades = ambient_attenuation_of(scene.illumination, model) != AmbientAttenuation::none;
+  const bool fades_alone =
+      !(attenuation_of(scene.illumination, model) == fading_of(scene)) && !scene.lights.empty();
 
   Finish finish;
   finish.constant = material.ambient * scene.illumination.ambient;

@@ -173,7 +173,7 @@ class Writer {
       // A power of 0 is out of reach of 1/roughness; this one is as good as 0.
       say(" specular {} roughness {}", amount(finish.blinn, "highlights"), 1 / max(finish.blinn_power, 1e-6));
     }
-    const bool unfaded = m.model.value_or(scene_.illumination.model) == ModelId::tachyon;
+    const bool unfaded = model_of(scene_, m) == ModelId::tachyon;
     if (unfaded && !(is_black(finish.phong) && is_black(finish.blinn)) && light_fades())
       remark("lets highlights fade as all light; that of " + who + " is meant to stay (model tachyon)");
     if (!is_black(finish.reflect)) say(" reflection {{ {} }}", rgb(finish.reflect));

@@ -140,7 +140,7 @@ class Writer {
     const bool phong = !is_black(finish.phong);
     const Rgb& highlight = phong ? finish.phong : finish.blinn;
     if (phong && !is_black(finish.blinn)) remark("has one highlight; of " + who + " the second is left out");
-    const ModelId model = m.model.value_or(scene_.illumination.model);
+    const ModelId model = model_of(scene_, m);
     if (!is_black(highlight) && model != ModelId::tachyon) {
       const bool fades = !(fading_of(scene_) == attenuation_none);
       bool spots = false;

@@ -1,11 +1,14 @@
 #include "film/layer_book.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 namespace lambent {
@@ -17,21 +20,7 @@ constexpr const char* data_names[] = {"Z",   "N.X",      "N.Y",      "N.Z",     
                                       "P.Z", "albedo.R", "albedo.G", "albedo.B", "UV.U", "UV.V"};
 constexpr int data_count = int(std::size(data_names)), first_albedo = 7;
 
-std::string hex(std::uint32_t number) {
-  std::string text(8, '0');
-  for (int i = 7; i >= 0; --i, number >>= 4) text[std::size_t(i)] = "0123456789abcdef"[number & 15];
-  return text;
-}
-
-std::string json_quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\', result += c;
-    else if (static_cast<unsigned char>(c) < 0x20) result += "\\u00" + hex(std::uint32_t(c)).substr(6);
-    else result += c;
-  }
-  return result + '"';
-}
+std::string hex(std::uint32_t number) { return fmt::format("{:08x}", number); }
 
 void add_share(PixelHits::Shares& shares, std::int32_t index) {
   for (auto& [known, samples] : shares)
@@ -184,15 +173,14 @@ void LayerBook::add_cryptomatte(const std::string& name, const std::vector<std::
   for (int level = 0; level < crypto_levels_; ++level)
     for (const char* channel : {".R", ".G", ".B", ".A"})
       channels_.push_back(name + "0" + std::to_string(level) + channel);
-  std::string manifest = "{";
-  for (const std::string& one : names)
-    manifest += (manifest.size() > 1 ? "," : "") + json_quoted(one) + ":\"" +
-                hex(std::bit_cast<std::uint32_t>(cryptomatte_id(one))) + '"';
+  nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
+  for (const std::string& one : names) manifest[one] = hex(std::bit_cast<std::uint32_t>(cryptomatte_id(one)));
   const std::string key = "cryptomatte/" + hex(murmur3(name)).substr(0, 7) + "/";
   metadata_.emplace_back(key + "name", name);
   metadata_.emplace_back(key + "hash", "MurmurHash3_32");
   metadata_.emplace_back(key + "conversion", "uint32_to_float32");
-  metadata_.emplace_back(key + "manifest", manifest + "}");
+  metadata_.emplace_back(key + "manifest",
+                         manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void LayerBook::write_shares(Shares& shares, float* to) const {

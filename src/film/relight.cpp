@@ -1,7 +1,7 @@
 #include "lambent/relight.h"
 
 #include <algorithm>
-#include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "film/layer_book.h"
@@ -82,13 +82,12 @@ struct MaterialFactor {
 
 std::vector<MaterialFactor> material_factors(const ReadImage& picture, const Relighting& relighting) {
   std::vector<MaterialFactor> result;
-  std::string manifest;
+  nlohmann::json manifest = nlohmann::json::object();
   for (const auto& [key, value] : picture.metadata)
-    if (key.ends_with("/manifest") && value.size() > manifest.size()) {
-      const std::string name_key = key.substr(0, key.size() - 8) + "name";
-      for (const auto& [other, name] : picture.metadata)
-        if (other == name_key && name == "CryptoMaterial") manifest = value;
-    }
+    if (key.ends_with("/name") && value == "CryptoMaterial")
+      for (const auto& [other, text] : picture.metadata)
+        if (other == key.substr(0, key.size() - 4) + "manifest")
+          manifest = nlohmann::json::parse(text, nullptr, false);
   for (const auto& [name, factor] : relighting.materials) {
     const std::size_t dot = name.rfind('.');
     const std::string term = dot == std::string::npos ? "" : name.substr(dot + 1);
@@ -96,7 +95,7 @@ std::vector<MaterialFactor> material_factors(const ReadImage& picture, const Rel
       refuse("'" + name + "' does not say which of the material's terms is meant",
              "for example red.diffuse; or .ambient, .specular");
     const std::string material = name.substr(0, dot);
-    if (manifest.find('"' + material + "\":\"") == std::string::npos)
+    if (!manifest.is_object() || !manifest.contains(material))
       refuse("the picture shows no material '" + material + "'",
              "'lambent info' of the scene names its materials");
     result.push_back({cryptomatte_id(material), term, factor});

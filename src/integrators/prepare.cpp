@@ -19,8 +19,8 @@ CameraRecord camera_record(const Camera& camera) {
 
 namespace {
 
-MaterialRecord material_record(const Material& material, ModelId scene_model) {
-  const ModelId model = material.model.value_or(scene_model);
+MaterialRecord material_record(const Scene& scene, const Material& material) {
+  const ModelId model = model_of(scene, material);
   MaterialRecord record{.ambient = material.ambient,
                         .diffuse = material.diffuse,
                         .specular = material.specular,
@@ -34,11 +34,8 @@ MaterialRecord material_record(const Material& material, ModelId scene_model) {
                         .emits = !is_black(material.emission),
                         .reflects = !is_black(material.reflect),
                         .transmits = !is_black(material.transmit)};
-  for (int i = 0; i < max_model_parameters && info(model).parameters[i].name; ++i) {
-    const ModelParameter& parameter = info(model).parameters[i];
-    const auto given = material.own.find(parameter.name);
-    record.own[i] = given == material.own.end() ? parameter.default_value : given->second;
-  }
+  for (int i = 0; i < max_model_parameters && info(model).parameters[i].name; ++i)
+    record.own[i] = own_number(material, info(model).parameters[i]);
   return record;
 }
 
@@ -85,7 +82,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   for (const AnyLight& light : prepared->lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
   for (const Material& material : scene.materials)
-    prepared->materials.push_back(material_record(material, scene.illumination.model));
+    prepared->materials.push_back(material_record(scene, material));
   frame.materials = prepared->materials.data();
   frame.layers.lights = frame.light_count;
   if (scene.whitted.max_depth > 1)
@@ -96,9 +93,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
         frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
       }
   for (int model = 0; model < model_count; ++model)
-    frame.fading[model] = {
-        scene.illumination.attenuation.value_or(info(ModelId(model)).attenuation),
-        scene.illumination.ambient_attenuation.value_or(info(ModelId(model)).ambient_attenuation)};
+    frame.fading[model] = {attenuation_of(scene.illumination, ModelId(model)),
+                           ambient_attenuation_of(scene.illumination, ModelId(model))};
   frame.ambient = scene.illumination.ambient;
   frame.minimum_distance = scene.illumination.minimum_distance;
   frame.background = scene.background;

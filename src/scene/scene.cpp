@@ -78,6 +78,20 @@ bool planes_in_reach(const Shape& shape, const Transform& world_from_object) {
 
 }  // namespace
 
+ModelId model_of(const Scene& scene, const Material& material) {
+  return material.model.value_or(scene.illumination.model);
+}
+double own_number(const Material& material, const ModelParameter& parameter) {
+  const auto given = material.own.find(parameter.name);
+  return given == material.own.end() ? parameter.default_value : given->second;
+}
+Attenuation attenuation_of(const Illumination& illumination, ModelId model) {
+  return illumination.attenuation.value_or(info(model).attenuation);
+}
+AmbientAttenuation ambient_attenuation_of(const Illumination& illumination, ModelId model) {
+  return illumination.ambient_attenuation.value_or(info(model).ambient_attenuation);
+}
+
 std::size_t primitive_count(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape.primitives)) return mesh->triangles.size();
   return std::visit(

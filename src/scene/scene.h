@@ -88,6 +88,7 @@ struct ImageSettings {
   int width = 1280, height = 720;
   int samples = 1;
   std::optional<AdaptiveSamples> adaptive;  ///< In place of `samples`.
+  bool is_adaptive() const { return adaptive && pattern != Pattern::corners; }
   Pattern pattern = Pattern::stratified;
   Filter filter = Filter::box;
   Encoding encoding = Encoding::srgb;
@@ -317,6 +318,13 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Diagnostic> warnings;
 };
+
+/// The model by which a material is lit, a number that it gives that model, and how light fades under a
+/// model: what is written, or else what holds where nothing is.
+ModelId model_of(const Scene& scene, const Material& material);
+double own_number(const Material& material, const ModelParameter& parameter);
+Attenuation attenuation_of(const Illumination& illumination, ModelId model);
+AmbientAttenuation ambient_attenuation_of(const Illumination& illumination, ModelId model);
 
 /// The smallest box around something; empty where lower > upper.
 struct Bounds {

@@ -17,8 +17,7 @@ Metadata settings_metadata(const Scene& scene) {
                    scene.image.width, scene.image.height, samples_text(scene.image),
                    text_of(scene.image.pattern), text_of(scene.image.filter), text_of(scene.image.encoding));
   s += fmt::format("illumination: {{model: {}, attenuation: {}, ambient_attenuation: {}, {}}}\n", model.name,
-                   text_of(i.attenuation.value_or(model.attenuation)),
-                   text_of(i.ambient_attenuation.value_or(model.ambient_attenuation)),
+                   text_of(attenuation_of(i, i.model)), text_of(ambient_attenuation_of(i, i.model)),
                    settings_text(i, Wanted::all));
   s += fmt::format("integrator: {}\n", integrator_text(scene));
   s += fmt::format("background: {}\n", text_of(scene.background));

@@ -81,8 +81,8 @@ std::string integrator_summary(const Scene& scene) {
 std::string model_text(const Illumination& illumination) {
   const ModelInfo& model = info(illumination.model);
   return fmt::format("{}, attenuation {}, ambient attenuation {}", model.name,
-                     text_of(illumination.attenuation.value_or(model.attenuation)),
-                     text_of(illumination.ambient_attenuation.value_or(model.ambient_attenuation)));
+                     text_of(attenuation_of(illumination, illumination.model)),
+                     text_of(ambient_attenuation_of(illumination, illumination.model)));
 }
 
 }  // namespace
@@ -125,8 +125,8 @@ SceneSummary summarize(const ScenePtr& pointer) {
     std::string text = detail(material);
     for (const auto& [name, value] : material.own)
       text += (text.empty() ? "" : ", ") + name + " " + plain(value);
-    summary.materials.push_back({material.name, info(material.model.value_or(scene.illumination.model)).name,
-                                 material.place, 0, std::move(text)});
+    summary.materials.push_back(
+        {material.name, info(model_of(scene, material)).name, material.place, 0, std::move(text)});
   }
   return summary;
 }

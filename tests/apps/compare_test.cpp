@@ -12,17 +12,9 @@
 namespace lambent::test {
 namespace {
 
-/// A folder with scene.yaml in it, and a picture that must survive what goes wrong.
-class Compare : public ::testing::Test {
+class Compare : public SceneFolder {
  protected:
-  Compare() {
-    write_text(folder.file("scene.yaml"), small_scene);
-    write_text(folder.file("old.png"), "precious");
-  }
-  ProgramResult compare(std::vector<std::string> words) const {
-    words.insert(words.begin(), "compare");
-    return run_program(words, folder.path());
-  }
+  ProgramResult compare(const std::vector<std::string>& words) const { return run("compare", words); }
   Image picture(const std::string& name) const { return read_image(folder.file(name)).image; }
   /// What `lambent render` makes of the scene.
   Image rendered(std::vector<std::string> words) const {
@@ -31,13 +23,6 @@ class Compare : public ::testing::Test {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return picture("one.exr");
   }
-  bool old_is_untouched() const { return read_text(folder.file("old.png")) == "precious"; }
-  std::size_t files() const {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
-    return count;
-  }
-  TemporaryDirectory folder;
 };
 
 std::vector<std::string> every_model() {

@@ -11,24 +11,9 @@
 namespace lambent::test {
 namespace {
 
-/// A folder with scene.yaml in it, and a picture that must survive what goes wrong.
-class Render : public ::testing::Test {
+class Render : public SceneFolder {
  protected:
-  Render() {
-    write_text(folder.file("scene.yaml"), small_scene);
-    write_text(folder.file("old.png"), "precious");
-  }
-  ProgramResult render(std::vector<std::string> words) const {
-    words.insert(words.begin(), "render");
-    return run_program(words, folder.path());
-  }
-  bool old_is_untouched() const { return read_text(folder.file("old.png")) == "precious"; }
-  std::size_t files() const {
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
-    return count;
-  }
-  TemporaryDirectory folder;
+  ProgramResult render(const std::vector<std::string>& words) const { return run("render", words); }
 };
 
 std::vector<std::string> keys_of(const nlohmann::json& object) {

@@ -1,7 +1,13 @@
 #pragma once
 // What the tests of the program render: small, and different in every pixel.
 
+#include <gtest/gtest.h>
+
+#include <filesystem>
 #include <string>
+#include <vector>
+
+#include "run_program.h"
 
 namespace lambent::test {
 
@@ -19,5 +25,26 @@ inline const std::string small_scene =
 
 /// One triangle, as a model file.
 inline const std::string small_model = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+/// A folder with scene.yaml in it, and a picture that must survive what goes wrong.
+class SceneFolder : public ::testing::Test {
+ protected:
+  SceneFolder() {
+    write_text(folder.file("scene.yaml"), small_scene);
+    write_text(folder.file("old.png"), "precious");
+  }
+  /// `lambent COMMAND WORDS ...` there.
+  ProgramResult run(const std::string& command, std::vector<std::string> words) const {
+    words.insert(words.begin(), command);
+    return run_program(words, folder.path());
+  }
+  bool old_is_untouched() const { return read_text(folder.file("old.png")) == "precious"; }
+  std::size_t files() const {
+    std::size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
+    return count;
+  }
+  TemporaryDirectory folder;
+};
 
 }  // namespace lambent::test

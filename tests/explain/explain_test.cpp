@@ -74,7 +74,7 @@ TEST(Explain, AFormulaHasTheBitsOfTheRenderersTerm) {
           EXPECT_EQ(ray.ambient, ambient_formula(d, ray).value);
           for (std::size_t l = 0; l < ray.lights.size(); ++l) {
             const DerivedLight& light = ray.lights[l];
-            if (!light.reaches || is_black(light.seen.arriving)) continue;
+            if (is_black(light.seen.arriving)) continue;
             const LightFormulas formulas = light_formulas(d, ray, int(l));
             ASSERT_EQ(light.seen.arriving, formulas.arriving.value);
             ASSERT_EQ(light.diffuse, formulas.diffuse.value);
