@@ -163,6 +163,29 @@ struct Compared {
   const char* what;  ///< For people.
   const char* yaml;
 };
+/// Exports a scene into `folder` as scene.ENDING and renders it there with the command that the file names.
+/// Remarks of the export fail the test, but for those that hold one of `expected`.
+inline ProgramResult render_exported(const ScenePtr& scene, ExportFormat format, const std::string& program,
+                                     const std::string& ending, const std::string& arguments,
+                                     const std::vector<std::string>& expected,
+                                     const TemporaryDirectory& folder) {
+  std::vector<Diagnostic> remarks;
+  const std::string text = export_scene(scene, format, remarks);
+  for (const Diagnostic& remark : remarks)
+    if (std::none_of(expected.begin(), expected.end(),
+                     [&](const std::string& part) { return remark.message.find(part) != std::string::npos; }))
+      ADD_FAILURE() << to_string(remark);
+  write_text(folder.file("scene." + ending), text);
+  return RunningProgram({"/bin/sh", "-c", command_in(text, program, "scene") + arguments}, folder.path())
+      .wait();
+}
+
+/// Whether enough of a picture was compared, and enough was in it.
+inline void expect_telling(const Apart& apart, const Image& ours) {
+  EXPECT_GT(apart.compared, ours.width * ours.height / 2);
+  EXPECT_GT(apart.brightest - apart.darkest, 0.3);
+}
+
 inline void PrintTo(const Compared& one, std::ostream* out) { *out << one.name; }
 
 }  // namespace lambent::test

@@ -117,15 +117,9 @@ TEST_P(PeerTachyon, MakesTheSamePicture) {
     GTEST_SKIP() << "Tachyon is not here: script/bootstrap --peers installs it";
   }
   const ScenePtr scene = parse_scene(one.yaml);
-  std::vector<Diagnostic> remarks;
-  const std::string text = export_scene(scene, ExportFormat::tachyon, remarks);
-  for (const Diagnostic& remark : remarks)
-    if (remark.message.find("-mediumshade") == std::string::npos) ADD_FAILURE() << to_string(remark);
   const test::TemporaryDirectory folder;
-  test::write_text(folder.file("scene.dat"), text);
   const auto ran =
-      test::RunningProgram({"/bin/sh", "-c", test::command_in(text, "tachyon", "scene")}, folder.path())
-          .wait();
+      test::render_exported(scene, ExportFormat::tachyon, "tachyon", "dat", "", {"-mediumshade"}, folder);
   ASSERT_EQ(ran.exit_code, 0) << ran.out << ran.err;
   const Image theirs = read_ppm48(folder.file("scene.ppm"));
 
@@ -149,8 +143,7 @@ TEST_P(PeerTachyon, MakesTheSamePicture) {
   const auto apart = test::how_far_apart(ours, test::smooth_pixels(yaml, set), [&](int x, int y) {
     return x >= 1 && y < theirs.height ? theirs.pixel(x - 1, y) : nullptr;
   });
-  EXPECT_GT(apart.compared, ours.width * ours.height / 2);
-  EXPECT_GT(apart.brightest - apart.darkest, 0.3);
+  test::expect_telling(apart, ours);
   SCOPED_TRACE(fmt::format("at {}, {}: ours {}", apart.x, apart.y,
                            fmt::join(ours.pixel(apart.x, apart.y), ours.pixel(apart.x, apart.y) + 3, " ")));
   test::conform("Tachyon " + test::version_in(ran.out, "Version "), one.what,
