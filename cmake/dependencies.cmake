@@ -5,6 +5,7 @@ if(NOT embree_FOUND)
 endif()
 find_package(OpenEXR CONFIG REQUIRED)
 find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED)
 find_package(yaml-cpp CONFIG REQUIRED)
 if(NOT TARGET yaml-cpp::yaml-cpp)
   add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)  # the name changed between 0.7 and 0.8

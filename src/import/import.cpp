@@ -10,7 +10,7 @@ namespace {
 /// The formats, one line each.
 struct Format {
   const char* ending;
-  Model (*read)(const std::string& path);
+  Model (*read)(const std::string& path, const ImportOptions& options);
 };
 constexpr Format formats[] = {
     {".obj", import_obj},
@@ -28,8 +28,8 @@ const Format* format_of(const std::string& path) {
 
 }  // namespace
 
-Model import_model(const std::string& path) {
-  if (const Format* format = format_of(path)) return format->read(path);
+Model import_model(const std::string& path, const ImportOptions& options) {
+  if (const Format* format = format_of(path)) return format->read(path, options);
   Diagnostic diagnostic;
   diagnostic.place.file = path;
   diagnostic.message = "the ending of '" + path + "' names no model format";

@@ -6,27 +6,51 @@
 #include <string>
 #include <vector>
 
+#include "lambent/limits.h"
 #include "scene/scene.h"
 
 namespace lambent {
 
+/// A shape of a model where the model has it; a shape may stand in several places.
+struct ModelObject {
+  std::string name;
+  std::uint32_t shape = 0;  ///< Index into Model::shapes.
+  Transform world_from_object;
+};
+
+struct NamedCamera {
+  std::string name;  ///< May be empty.
+  Camera camera;
+};
+
 struct Model {
   std::vector<Shape> shapes;  ///< One or more parts; material_of_primitive indexes `materials` of this model.
+  /// Where they stand. Empty: each shape once, as it is.
+  std::vector<ModelObject> objects;
+  std::vector<Texture> textures;    ///< Not loaded yet.
   std::vector<Material> materials;  ///< Never empty: a model without materials has one neutral one.
   std::vector<Light> lights;
-  std::optional<Camera> camera;
+  std::vector<NamedCamera> cameras;  ///< The first is the file's own view.
   std::optional<ImageSettings> image;
   std::optional<Rgb> background;
   ModelId illumination = ModelId::phong;  ///< The model that its materials are written for.
+  bool z_up = false;                      ///< Whether z is up, as far as the format lets one guess; else y.
   std::vector<Diagnostic> warnings;
+};
+
+struct ImportOptions {
+  double time = 0;  ///< Seconds: the pose of what is animated.
+  Limits limits;    ///< What is beyond is refused.
+  /// The folder that files which the model names must lie in, or below. Empty: the model's own.
+  std::string root;
 };
 
 /// Read a model file; its ending (.obj, .nff) names the format. Throws InputError with the file's name and
 /// line.
-Model import_model(const std::string& path);
+Model import_model(const std::string& path, const ImportOptions& options = {});
 
-Model import_obj(const std::string& path);
-Model import_nff(const std::string& path);
+Model import_obj(const std::string& path, const ImportOptions& options = {});
+Model import_nff(const std::string& path, const ImportOptions& options = {});
 
 /// Whether import_model knows the ending of `path`.
 bool is_model_file(const std::string& path);

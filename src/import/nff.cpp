@@ -209,7 +209,7 @@ class Reader {
   // ---- statements
 
   void view() {
-    if (model_.camera) fail(keyword_, "a second view 'v'", "a file has one view");
+    if (!model_.cameras.empty()) fail(keyword_, "a second view 'v'", "a file has one view");
     constexpr std::array<std::string_view, 6> parts = {"from", "at", "up", "angle", "hither", "resolution"};
     std::array<bool, 6> given{};
     const std::string_view v = keyword_;
@@ -264,7 +264,7 @@ class Reader {
       fail(up_word, camera.up == Vec3<double>{} ? "the direction 'up' is zero"
                                                 : "the direction 'up' is along the way from 'from' to 'at'");
     image.encoding = Encoding::none;
-    model_.camera = camera;
+    model_.cameras = {{"", camera}};
     model_.image = image;
   }
   static constexpr Range angles{0.01, 179};  // of the scene's cameras
@@ -463,6 +463,6 @@ class Reader {
 
 }  // namespace
 
-Model import_nff(const std::string& path) { return Reader(path).read(); }
+Model import_nff(const std::string& path, const ImportOptions&) { return Reader(path).read(); }
 
 }  // namespace lambent

@@ -506,6 +506,6 @@ class ObjReader {
 
 }  // namespace
 
-Model import_obj(const std::string& path) { return ObjReader(path).read(); }
+Model import_obj(const std::string& path, const ImportOptions&) { return ObjReader(path).read(); }
 
 }  // namespace lambent

@@ -18,6 +18,7 @@
 #include "lights/lights.h"
 #include "math/transform.h"
 #include "parameters/parameter.h"
+#include "scene/texture.h"
 
 namespace lambent {
 
@@ -171,6 +172,24 @@ inline constexpr Parameter<ViewSettings> parameters_of<ViewSettings>[] = {
      "The name of the light whose N.L `cosine` shows; the scene's only light where not given."},
 };
 
+/// The material of glTF 2.0 and of most programs that model: not a rung of the lecture, but brought to its
+/// Ka, Kd, Ks, n by illumination/metallic_roughness.h.
+struct MetallicRoughness {
+  Rgb base_color{1, 1, 1};
+  double metallic = 1, roughness = 1;
+  double specular = 1;          ///< Factor on the reflection of what is no metal; KHR_materials_specular.
+  Rgb specular_color{1, 1, 1};  ///< Likewise.
+  double ior = 1.5;             ///< Likewise: reflection ((ior - 1) / (ior + 1))^2; KHR_materials_ior.
+  double transmission = 0;      ///< Share of the light that is not reflected which goes through.
+  double clearcoat = 0, clearcoat_roughness = 0;
+};
+
+/// What becomes of a surface's opacity.
+enum class Alpha : std::uint8_t {
+  blend,  ///< What is not opaque shows what lies behind, straight on.
+  mask,   ///< There where the opacity is `alpha_cutoff` or more, and not there elsewhere.
+};
+
 struct Material {
   std::string name;
   Place place;  ///< Where it was written.
@@ -182,6 +201,15 @@ struct Material {
   Rgb transmit{0, 0, 0};
   double ior = 1.5;
   Rgb emission{0, 0, 0};
+  /// How much of the surface is there: the share `opacity` of its colour, and the rest of what lies behind
+  /// it.
+  double opacity = 1;
+  Alpha alpha = Alpha::blend;
+  double alpha_cutoff = 0.5;
+  bool one_sided = false;  ///< Rays that come from inside do not see it. It casts shadows all the same.
+  /// In place of ambient, diffuse, specular, shininess, reflect, transmit and ior.
+  std::optional<MetallicRoughness> metallic_roughness;
+  std::vector<MaterialMap> maps;      ///< Any number; of those of one slot, all multiply.
   std::optional<ModelId> model;       ///< Unset: the scene's.
   std::map<std::string, double> own;  ///< The models' own parameters that the file gives, by name.
 };
@@ -265,12 +293,19 @@ inline constexpr Parameter<Cone> parameters_of<Cone>[] = {
     {"radius_to", &Cone::radius_to, at_least_zero, "scene units", "Radius at `to`.", true},
 };
 
-/// A triangle mesh. Faces are counter-clockwise seen from outside. normals and uvs are empty, or one for each
-/// vertex.
+/// A triangle mesh. Faces are counter-clockwise seen from outside. All but vertices and triangles may be
+/// empty; otherwise they hold one for each vertex.
 struct Mesh {
   std::vector<Vec3<float>> vertices;
   std::vector<Vec3<float>> normals;  ///< Unit length (or zero: then the face's own normal is taken).
-  std::vector<Vec2<float>> uvs;
+  std::vector<Vec2<float>> uvs;      ///< v upwards; see TextureMap.
+  std::vector<Vec2<float>> uvs2;     ///< A second set, for maps with uv_set 1.
+  /// Linear R, G, B, and opacity: factors on the material's ambient and diffuse colour (or its base colour)
+  /// and on its opacity.
+  std::vector<std::array<float, 4>> colors;
+  /// Unit vector along growing u, and the side (1 or -1) to which normal x tangent points against growing v.
+  /// For normal maps; made of the triangle's texture coordinates where empty.
+  std::vector<std::array<float, 4>> tangents;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
@@ -313,6 +348,7 @@ struct Scene {
   std::optional<ViewSettings> view;  ///< In place of the colours.
   Rgb background{0, 0, 0};
   std::vector<Light> lights;
+  std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Shape> shapes;
   std::vector<Object> objects;

@@ -198,10 +198,10 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
   ImageSettings image;
   image.width = width, image.height = height, image.samples = 16;
   if (model.image) image = *model.image;
-  Camera camera =
-      model.camera ? *model.camera : framing_camera(box, ball, double(image.width) / image.height);
-  if (!model.camera) camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
-  if (!model.camera || !own_lights) check_reach(camera, ball, path);
+  Camera camera = model.cameras.empty() ? framing_camera(box, ball, double(image.width) / image.height)
+                                        : model.cameras[0].camera;
+  if (model.cameras.empty()) camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
+  if (model.cameras.empty() || !own_lights) check_reach(camera, ball, path);
 
   std::string text;
   const auto out = std::back_inserter(text);
@@ -210,13 +210,14 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
                  file);
   fmt::format_to(out, "lambent: 1\n\n");
   fmt::format_to(out, "# {}\ncamera: {{{}}}\n",
-                 model.camera ? "The file's own view."
-                              : "From three quarters and a little above; all of the model is in the picture.",
+                 !model.cameras.empty()
+                     ? "The file's own view."
+                     : "From three quarters and a little above; all of the model is in the picture.",
                  settings_text(camera, Wanted::what_differs));
   fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width,
                  image.height, image.samples, text_of(image.pattern), text_of(image.encoding));
   if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
-  else if (!model.camera && !own_lights)
+  else if (model.cameras.empty() && !own_lights)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));
   fmt::format_to(
       out, "\n{}",
@@ -224,7 +225,7 @@ std::string scene_text(const Model& model, const std::string& path, int width, i
 
   fmt::format_to(
       out, "\n# The model brings its materials.\nobjects:\n  - {{name: model, mesh: {{file: {}}}}}\n", file);
-  if (!model.camera && !own_lights) {
+  if (model.cameras.empty() && !own_lights) {
     // A hair below the model, so that a flat one is not mixed up with its floor.
     const Disc floor{rounded({ball.center.x, box.lower.y - 1e-3 * ball.radius, ball.center.z}),
                      {0, 1, 0},

@@ -98,7 +98,7 @@ ObjectReader::ObjectReader(Reader& reader, Scene& scene, std::string folder, Loa
 }
 
 void ObjectReader::add_shape(std::string name, Primitives primitives) {
-  shapes_.push_back(std::uint32_t(scene_.shapes.size()));
+  placed_shapes_.push_back({{}, std::uint32_t(scene_.shapes.size()), {}});
   scene_.shapes.push_back({std::move(name), std::move(primitives), {}});
 }
 
@@ -170,6 +170,7 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
     }
   }
   std::vector<Place> replaced_places;
+  const std::size_t first_material = scene_.materials.size();
   for (Material& material : model->materials) {
     if (const auto replaced = by_name_.find(material.name); replaced != by_name_.end()) {
       placed.materials.push_back(replaced->second);
@@ -179,10 +180,16 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
     placed.materials.push_back(std::uint32_t(scene_.materials.size()));
     scene_.materials.push_back(std::move(material));
   }
-  for (Shape& shape : model->shapes) {
-    placed.shapes.push_back(std::uint32_t(scene_.shapes.size()));
-    scene_.shapes.push_back(std::move(shape));
-  }
+  const auto first_texture = std::uint32_t(scene_.textures.size());
+  std::move(model->textures.begin(), model->textures.end(), std::back_inserter(scene_.textures));
+  for (std::size_t i = first_material; i < scene_.materials.size(); ++i)
+    for (MaterialMap& map : scene_.materials[i].maps) map.map.texture += first_texture;
+  const auto first_shape = std::uint32_t(scene_.shapes.size());
+  placed.objects = std::move(model->objects);
+  if (placed.objects.empty())
+    for (std::uint32_t i = 0; i < model->shapes.size(); ++i) placed.objects.push_back({{}, i, {}});
+  for (ModelObject& object : placed.objects) object.shape += first_shape;
+  std::move(model->shapes.begin(), model->shapes.end(), std::back_inserter(scene_.shapes));
   for (Diagnostic& warning : model->warnings) {
     // What was odd about a material that the scene replaces matters to nobody.
     const bool moot = std::any_of(replaced_places.begin(), replaced_places.end(), [&](const Place& place) {
@@ -279,7 +286,7 @@ bool ObjectReader::mesh(const Values& values, const Section& section, Object&) {
   }
   file_ = model(*file);
   if (file_ == nullptr || !good) return false;
-  shapes_ = file_->shapes;
+  placed_shapes_ = file_->objects;
   return true;
 }
 
@@ -389,7 +396,7 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
   if (const Value* transform = values->find("transform"))
     read_transform(reader_, *transform, object.world_from_object);
 
-  shapes_.clear();
+  placed_shapes_.clear();
   file_ = nullptr;
   const Value* first = nullptr;
   bool good = true;
@@ -418,8 +425,12 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
   if (file_ != nullptr)
     object.materials = own ? std::vector(file_->materials.size(), *own) : file_->materials;
   else object.materials = {own ? *own : default_material()};
-  for (const std::uint32_t index : shapes_) {
-    object.shape = index;
+  const Transform placing = object.world_from_object;
+  const std::string name = object.name;
+  for (const ModelObject& part : placed_shapes_) {
+    object.shape = part.shape;
+    object.world_from_object = placing * part.world_from_object;
+    object.name = part.name.empty() ? name : name + "/" + part.name;
     scene_.objects.push_back(object);
   }
 }

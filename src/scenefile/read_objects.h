@@ -23,7 +23,8 @@ class ObjectReader {
   /// Where a model file went: its shapes, and its materials as the scene has them.
   struct Placed {
     bool good = false;
-    std::vector<std::uint32_t> shapes, materials;
+    std::vector<ModelObject> objects;  ///< Their shapes are the scene's.
+    std::vector<std::uint32_t> materials;
   };
 
   bool shape(const Section& section, const Value& value, Object& object);
@@ -41,8 +42,8 @@ class ObjectReader {
   std::map<std::string, Placed> placed_;          // by model_key
   std::map<std::string, std::uint32_t> by_name_;  // the scene's own materials
   std::optional<std::uint32_t> default_material_;
-  std::vector<std::uint32_t> shapes_;  // of the object at hand
-  const Placed* file_ = nullptr;       // likewise, if it is a model file
+  std::vector<ModelObject> placed_shapes_;  // of the object at hand
+  const Placed* file_ = nullptr;            // likewise, if it is a model file
   std::size_t inline_materials_ = 0;
 };
 

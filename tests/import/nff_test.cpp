@@ -50,24 +50,25 @@ const std::string view = "v from 1 2 3 at 0 0 0 up 0 1 0 angle 45 hither 1 resol
 TEST(Nff, ReadsAView) {
   const Model model = read(
       "v\nfrom 2.1 1.3 1.7\nat 1 0 -1\nup 0 0 1\nangle 90\nhither 0.01\nresolution 640 480\ns 0 0 0 1\n");
-  ASSERT_TRUE(model.camera && model.image);
-  EXPECT_EQ(model.camera->projection, Projection::perspective);
-  EXPECT_EQ(model.camera->eye, (Vec3<double>{2.1, 1.3, 1.7}));
-  EXPECT_EQ(model.camera->target, (Vec3<double>{1, 0, -1}));
-  EXPECT_EQ(model.camera->up, (Vec3<double>{0, 0, 1}));
+  ASSERT_TRUE(!model.cameras.empty() && model.image);
+  EXPECT_EQ(model.cameras[0].camera.projection, Projection::perspective);
+  EXPECT_EQ(model.cameras[0].camera.eye, (Vec3<double>{2.1, 1.3, 1.7}));
+  EXPECT_EQ(model.cameras[0].camera.target, (Vec3<double>{1, 0, -1}));
+  EXPECT_EQ(model.cameras[0].camera.up, (Vec3<double>{0, 0, 1}));
   EXPECT_EQ(model.image->width, 640);
   EXPECT_EQ(model.image->height, 480);
   EXPECT_EQ(model.image->samples, 1);
   EXPECT_EQ(model.image->pattern, Pattern::corners);
   EXPECT_EQ(model.image->encoding, Encoding::none);
   // The angle spans 479 of the 480 rows: tan(fov / 2) = tan(45 degrees) * 480 / 479.
-  EXPECT_NEAR(std::tan(model.camera->fov * M_PI / 360), 480.0 / 479.0, 1e-10);
+  EXPECT_NEAR(std::tan(model.cameras[0].camera.fov * M_PI / 360), 480.0 / 479.0, 1e-10);
   EXPECT_FALSE(model.background);
   EXPECT_TRUE(model.lights.empty());
 }
 
 TEST(Nff, TakesTheAngleAsItIsForOneRow) {
-  EXPECT_EQ(read("v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 resolution 7 1 s 0 0 0 1").camera->fov, 40);
+  EXPECT_EQ(read("v from 0 0 5 at 0 0 0 up 0 1 0 angle 40 resolution 7 1 s 0 0 0 1").cameras.at(0).camera.fov,
+            40);
 }
 
 TEST(Nff, MeasuresTheAngleBetweenTheCentresOfTheOuterRows) {
@@ -77,7 +78,7 @@ TEST(Nff, MeasuresTheAngleBetweenTheCentresOfTheOuterRows) {
     const Model model = read("v from 0 0 5 at 0 0 0 up 0 1 0 angle " + std::to_string(angle) +
                              " resolution 9 " + std::to_string(rows) + "\ns 0 0 0 1");
     // The centre of the top row lies at 1 - 1/rows of the way from the middle to the upper edge.
-    const double top_row = std::tan(model.camera->fov * M_PI / 360) * (1 - 1.0 / rows);
+    const double top_row = std::tan(model.cameras[0].camera.fov * M_PI / 360) * (1 - 1.0 / rows);
     RC_ASSERT(std::abs(top_row - std::tan(angle * M_PI / 360)) < 1e-9);
   }));
 }
@@ -85,8 +86,8 @@ TEST(Nff, MeasuresTheAngleBetweenTheCentresOfTheOuterRows) {
 TEST(Nff, TakesTheViewsPartsInAnyOrderAndWithoutHither) {
   const Model a = read(view + "s 0 0 0 1"),
               b = read("v resolution 512 256 angle 45 up 0 1 0 at 0 0 0 from 1 2 3 s 0 0 0 1");
-  EXPECT_EQ(a.camera->eye, b.camera->eye);
-  EXPECT_EQ(a.camera->fov, b.camera->fov);
+  EXPECT_EQ(a.cameras.at(0).camera.eye, b.cameras.at(0).camera.eye);
+  EXPECT_EQ(a.cameras.at(0).camera.fov, b.cameras.at(0).camera.fov);
   EXPECT_EQ(b.image->width, 512);
 }
 
@@ -451,7 +452,7 @@ TEST(NffFiles, TheStandardProceduralDatabasesAreWhole) {
     EXPECT_EQ(objects, expected.primitives) << expected.file;
     EXPECT_EQ(model.lights.size(), expected.lights) << expected.file;
     EXPECT_EQ(model.materials.size(), expected.fills) << expected.file;
-    EXPECT_TRUE(model.camera && model.image && model.background) << expected.file;
+    EXPECT_TRUE(!model.cameras.empty() && model.image && model.background) << expected.file;
     EXPECT_TRUE(model.warnings.empty()) << expected.file;
   }
 }

@@ -259,7 +259,8 @@ TEST(Autoscene, WritesShortNumbers) {
 /// A model with everything of its own.
 Model own_model() {
   Model model = box_model({-1, -1, -1}, {1, 1, 1});
-  model.camera = Camera{.eye = {1, 2, 3}, .target = {0.1, 0.2, 0.3}, .up = {0, 0, 1}, .fov = 45.079261488};
+  model.cameras = {
+      {"", Camera{.eye = {1, 2, 3}, .target = {0.1, 0.2, 0.3}, .up = {0, 0, 1}, .fov = 45.079261488}}};
   model.image = [] {
     ImageSettings image;
     image.width = 320, image.height = 200;
@@ -276,10 +277,10 @@ Model own_model() {
 TEST(Autoscene, KeepsWhatTheModelBrings) {
   const Model model = own_model();
   const Scene scene = scene_of(model, 1280, 720, "own.nff");
-  EXPECT_EQ(scene.camera.eye, model.camera->eye);
-  EXPECT_EQ(scene.camera.target, model.camera->target);
-  EXPECT_EQ(scene.camera.up, model.camera->up);
-  EXPECT_EQ(scene.camera.fov, model.camera->fov);
+  EXPECT_EQ(scene.camera.eye, model.cameras[0].camera.eye);
+  EXPECT_EQ(scene.camera.target, model.cameras[0].camera.target);
+  EXPECT_EQ(scene.camera.up, model.cameras[0].camera.up);
+  EXPECT_EQ(scene.camera.fov, model.cameras[0].camera.fov);
   EXPECT_EQ(scene.image.width, 320);
   EXPECT_EQ(scene.image.height, 200);
   EXPECT_EQ(scene.image.samples, 1);
@@ -307,19 +308,19 @@ TEST(Autoscene, LightsAViewThatHasNoLights) {
   model.lights.clear();
   model.background.reset();
   const Scene scene = scene_of(model);
-  EXPECT_EQ(scene.camera.eye, model.camera->eye);
+  EXPECT_EQ(scene.camera.eye, model.cameras[0].camera.eye);
   EXPECT_EQ(scene.background, (Rgb{0, 0, 0}));
   ASSERT_EQ(scene.lights.size(), 3u);
   EXPECT_EQ(scene.lights[0].name, "key");
   EXPECT_EQ(scene.objects.size(), 1u);
   // Light comes from the camera's side, and from above as the camera sees it.
-  EXPECT_GT(dot(point(scene.lights[0]).position, model.camera->eye), 0);
+  EXPECT_GT(dot(point(scene.lights[0]).position, model.cameras[0].camera.eye), 0);
   EXPECT_GT(point(scene.lights[0]).position.z, 0);
 }
 
 TEST(Autoscene, FramesAModelThatHasLightsButNoView) {
   Model model = own_model();
-  model.camera.reset();
+  model.cameras.clear();
   model.image.reset();
   const Scene scene = scene_of(model, 300, 100);
   EXPECT_EQ(scene.image.width, 300);
