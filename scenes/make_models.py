@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what is computed in scenes/: models/petal_*.obj, models/checker.*, dahlia.yaml and fullerene.yaml.
+"""Writes what is computed in scenes/: models/petal_*.obj, models/checker.*, images/*, dahlia.yaml and fullerene.yaml.
 
 Run it anywhere: python3 scenes/make_models.py. It needs the standard library alone, and the same numbers come out
 every time; they are rounded, so that the last bits of a machine's sine do not show.
@@ -8,6 +8,8 @@ every time; they are rounded, so that the last bits of a machine's sine do not s
 import itertools
 import math
 import pathlib
+import struct
+import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 GOLDEN_ANGLE = 180 * (3 - math.sqrt(5))  # degrees; leaves that follow each other at this angle never line up
@@ -261,7 +263,79 @@ Kd 0.15 0.15 0.15
 illum 1"""
 
 
+# ---- images --------------------------------------------------------------------------------------------------------------
+
+
+def png(width, height, channels, pixel):
+    """An 8-bit PNG; pixel(x, y) gives `channels` whole numbers."""
+    rows = b"".join(b"\0" + bytes(v for x in range(width) for v in pixel(x, y)) for y in range(height))
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, {1: 0, 3: 2}[channels], 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b"")
+
+
+def rgbe(color):
+    """A colour as Radiance's pictures hold it: three mantissas and the exponent that they share."""
+    largest = max(color)
+    if largest < 1e-9:
+        return bytes(4)
+    exponent = math.frexp(largest)[1]
+    scale = 256 / 2**exponent
+    return bytes([min(int(c * scale), 255) for c in color] + [exponent + 128])
+
+
+TILE = 64  # texels
+
+
+def tile_edge(x, y):
+    """How far a texel is from the nearest joint, in texels."""
+    return min(x % TILE, TILE - 1 - x % TILE, y % TILE, TILE - 1 - y % TILE)
+
+
+def tile_color(x, y):
+    """Two by two tiles, two light and two dark, with pale joints; a little of each tile's own."""
+    if tile_edge(x, y) < 2:
+        return (196, 188, 176)
+    i, j = x // TILE, y // TILE
+    grain = 6 * math.sin(0.9 * x + 2.3 * i) * math.sin(0.7 * y + 1.7 * j)
+    base = (206, 196, 178) if (i + j) % 2 else (92, 104, 112)
+    return tuple(int(round(c + grain)) for c in base)
+
+
+def tile_height(x, y):
+    """The joints lie deeper, and tiles are a little round at their edges."""
+    return (int(round(255 * min(max(tile_edge(x, y) - 1, 0) / 5, 1) ** 0.5)),)
+
+
+def studio_sky(x, y, width, height):
+    """A grey studio: a bright panel above to the left, a softer one to the right, and a floor that is darker."""
+    longitude, latitude = 360 * (x + 0.5) / width - 180, 90 - 180 * (y + 0.5) / height
+
+    def panel(at_longitude, at_latitude, wide, high, soft):
+        across = max(abs(longitude - at_longitude) - wide, 0) / soft
+        up = max(abs(latitude - at_latitude) - high, 0) / soft
+        return math.exp(-(across**2) - up**2)
+
+    base = 0.16 + 0.22 * (latitude + 90) / 180
+    key, fill, rim = panel(-60, 42, 22, 16, 4), panel(70, 25, 16, 24, 5), panel(170, 30, 30, 8, 6)
+    return tuple(base * t + 7 * key * k + 2.2 * fill * f + 3 * rim for t, k, f in
+                 zip((0.95, 1, 1.06), (1, 0.96, 0.88), (0.85, 0.93, 1)))
+
+
+def hdr(width, height, color):
+    """A Radiance picture without run lengths."""
+    head = f"#?RADIANCE\n# Written by scenes/make_models.py.\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n"
+    return head.encode() + b"".join(rgbe(color(x, y, width, height)) for y in range(height) for x in range(width))
+
+
 def main():
+    (HERE / "images").mkdir(exist_ok=True)
+    (HERE / "images/tiles.png").write_bytes(png(2 * TILE, 2 * TILE, 3, tile_color))
+    (HERE / "images/tiles_height.png").write_bytes(png(2 * TILE, 2 * TILE, 1, tile_height))
+    (HERE / "images/studio.hdr").write_bytes(hdr(256, 128, studio_sky))
     for name, surface in PETALS.items():
         write(f"models/petal_{name}.obj", grid_obj(f"A petal of a dahlia, {name} ring.", surface, 40, 24))
     write("models/checker.obj", checker(24))

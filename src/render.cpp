@@ -84,7 +84,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;
-  stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow};
+  stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow, rays.ambient};
   stats.seconds.develop = clock.lap();
   stats.samples_per_pixel = double(rays.eye) / pixels;
   stats.peak_memory_bytes = peak_memory_bytes();

@@ -36,7 +36,7 @@ struct Tiles {
 };
 
 std::uint64_t all_of(const RayCounts& rays) {
-  return rays.eye + rays.reflection + rays.refraction + rays.shadow;
+  return rays.eye + rays.reflection + rays.refraction + rays.shadow + rays.ambient;
 }
 
 /// What a thread keeps from task to task.
@@ -94,6 +94,7 @@ class Crew {
         run_.counts.reflection += worker.counts.reflection;
         run_.counts.refraction += worker.counts.refraction;
         run_.counts.shadow += worker.counts.shadow;
+        run_.counts.ambient += worker.counts.ambient;
       } catch (...) {
         const std::lock_guard lock(mutex);
         failure = std::current_exception();

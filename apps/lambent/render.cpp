@@ -38,7 +38,8 @@ std::string stats_as_json(const Stats& stats) {
                   {"eye_hits", stats.rays.eye_hits},
                   {"reflection", stats.rays.reflection},
                   {"refraction", stats.rays.refraction},
-                  {"shadow", stats.rays.shadow}};
+                  {"shadow", stats.rays.shadow},
+                  {"ambient", stats.rays.ambient}};
   json["seconds"] = {{"parse", stats.seconds.parse},
                      {"build", stats.seconds.build},
                      {"render", stats.seconds.render},
@@ -120,7 +121,7 @@ ExitCode run(const RenderCommand& command) {
 
   if (!command.quiet) {
     const std::uint64_t rays =
-        stats.rays.eye + stats.rays.reflection + stats.rays.refraction + stats.rays.shadow;
+        stats.rays.eye + stats.rays.reflection + stats.rays.refraction + stats.rays.shadow + stats.rays.ambient;
     print_error(fmt::format("{}: {} x {}, {}, {} rays\n", joined(outputs), result.image.width,
                             result.image.height, duration(total.seconds()), rounded(rays)));
   }

@@ -89,7 +89,7 @@ struct Stats {
   /// Rays by kind. refraction counts totally reflected ones too: the refracted ray was asked for (as the
   /// SPD's tables count).
   struct {
-    std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0;
+    std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0, ambient = 0;
   } rays;
   /// By stage. render() fills build, render and develop; who loads the scene and writes the picture knows the
   /// others.

@@ -244,26 +244,6 @@ SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32
   if (any_normals) detail::smooth_triangle(g, primitive, at, &placing, d, s);
   return s;
 }
-/// The texture coordinates of a point P of a mesh's triangle, between those of its corners; {0, 0} where
-/// there are none.
-inline Vec2<double> uv_at(const WorldView& world, const HitIds<std::int32_t>& ids, const Vec3<double>& P) {
-  const Geometry& g = world.geometries[ids.geometry];
-  if (g.kind != PrimitiveKind::triangle || !g.uvs) return {};
-  const Vec3<double> at =
-      ids.instance >= 0 ? transform_point(world.instances[ids.instance].object_from_world, P) : P;
-  const auto& corner = g.triangles[ids.primitive];
-  const Vec3<double> p0 = cast<double>(g.vertices[corner[0]]), e1 = cast<double>(g.vertices[corner[1]]) - p0,
-                     e2 = cast<double>(g.vertices[corner[2]]) - p0, n = cross(e1, e2), q = at - p0;
-  const double nn = dot(n, n);
-  if (!(nn > 0)) return {g.uvs[corner[0]].x, g.uvs[corner[0]].y};
-  const double b1 = dot(cross(q, e2), n) / nn, b2 = dot(cross(e1, q), n) / nn, b0 = 1 - b1 - b2;
-  const auto between = [&](auto member) {
-    return b0 * (g.uvs[corner[0]].*member) + b1 * (g.uvs[corner[1]].*member) +
-           b2 * (g.uvs[corner[2]].*member);
-  };
-  return {between(&Vec2<float>::x), between(&Vec2<float>::y)};
-}
-
 inline SurfacePoint<double> surface_at(const WorldView& world, const HitIds<std::int32_t>& ids,
                                        const Vec3<double>& o, const Vec3<double>& d, double t_found) {
   return surface_at<double>(world, {&ids.instance, &ids.geometry, &ids.primitive}, o, d, t_found);

@@ -96,7 +96,12 @@ class Builder {
   World build() {
     world_.material_transmits = std::make_unique<bool[]>(scene_.materials.size() + 1);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-      world_.material_transmits[i] = !is_black(scene_.materials[i].transmit);
+      world_.material_transmits[i] = may_transmit(scene_.materials[i]);
+    // What vertices let through, their material does.
+    for (const Object& object : scene_.objects)
+      if (const Mesh* mesh = std::get_if<Mesh>(&scene_.shapes[object.shape].primitives))
+        if (std::any_of(mesh->colors.begin(), mesh->colors.end(), [](const auto& c) { return c[3] < 1; }))
+          for (std::uint32_t m : object.materials) world_.material_transmits[m] = true;
 
     std::vector<int> shown(scene_.shapes.size());
     for (const Object& object : scene_.objects) ++shown[object.shape];
@@ -215,7 +220,21 @@ class Builder {
     g.vertices = mesh.vertices.data();
     g.normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
     g.uvs = mesh.uvs.empty() ? nullptr : mesh.uvs.data();
+    g.uvs2 = mesh.uvs2.empty() ? nullptr : mesh.uvs2.data();
+    g.colors = mesh.colors.empty() ? nullptr : mesh.colors.data();
+    g.tangents = mesh.tangents.empty() ? nullptr : mesh.tangents.data();
     if (is_identity(t)) return;
+    if (g.tangents) {
+      std::vector<std::array<float, 4>> tangents;
+      tangents.reserve(mesh.tangents.size());
+      for (const auto& [x, y, z, side] : mesh.tangents) {
+        const Vec3<double> turned = transform_vector(t, {x, y, z});
+        const double size = length(turned);
+        const Vec3<float> unit = size > 0 ? cast<float>(turned / size) : Vec3<float>{};
+        tangents.push_back({unit.x, unit.y, unit.z, g.flipped ? -side : side});
+      }
+      g.tangents = keep(world_.placed_tangents, std::move(tangents));
+    }
     std::vector<Vec3<float>> points;
     points.reserve(mesh.vertices.size());
     for (const auto& v : mesh.vertices) points.push_back(cast<float>(transform_point(t, cast<double>(v))));

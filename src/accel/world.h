@@ -34,7 +34,10 @@ struct Geometry {
   const Vec3<float>* vertices = nullptr;
   const std::array<std::uint32_t, 3>* triangles = nullptr;
   const Vec3<float>* normals = nullptr;  ///< Null, or one for each vertex.
-  const Vec2<float>* uvs = nullptr;      ///< Likewise.
+  const Vec2<float>* uvs = nullptr;      ///< Likewise; and these:
+  const Vec2<float>* uvs2 = nullptr;
+  const std::array<float, 4>* colors = nullptr;
+  const std::array<float, 4>* tangents = nullptr;
   const Sphere* spheres = nullptr;
   const PlacedCone* cones = nullptr;
   const Disc* discs = nullptr;                           ///< Unit normals.
@@ -128,6 +131,7 @@ struct World {
 
   // What had to be made new: coordinates taken into the world, cones and discs in the queries' form.
   std::vector<std::unique_ptr<std::vector<Vec3<float>>>> placed_points;
+  std::vector<std::unique_ptr<std::vector<std::array<float, 4>>>> placed_tangents;
   std::vector<std::unique_ptr<std::vector<Sphere>>> placed_spheres;
   std::vector<std::unique_ptr<std::vector<PlacedCone>>> placed_cones;
   std::vector<std::unique_ptr<std::vector<Disc>>> placed_discs;

@@ -5,6 +5,7 @@
 #include "accel/surface.h"
 #include "film/film.h"
 #include "image/srgb.h"
+#include "integrators/paint.h"
 #include "lambent/image.h"
 
 namespace lambent {
@@ -42,6 +43,15 @@ class Notes {
     DerivedRay& ray = to_.rays[seen.ray];
     ray.hits = true;
     ray.hit = seen;
+    ray.material = to_.scene->materials[seen.material];
+    ray.material.ambient = seen.numbers.ambient;
+    ray.material.diffuse = seen.numbers.diffuse;
+    ray.material.specular = seen.numbers.specular;
+    ray.material.shininess = seen.numbers.shininess;
+    ray.material.emission = seen.numbers.emission;
+    ray.material.reflect = seen.numbers.reflect;
+    ray.material.transmit = seen.numbers.transmit;
+    ray.material.ior = seen.numbers.ior;
     ray.object = object_of(frame_.world, seen.instance, seen.geometry, seen.primitive);
     // Small shapes of many objects stand together in one geometry: count from the object's first.
     const Geometry& g = frame_.world.geometries[seen.geometry];
@@ -101,9 +111,12 @@ class Notes {
       const auto& [instance, geometry, primitive] = hit.ids;
       const std::uint32_t material = material_of(frame_.world, instance, geometry, primitive);
       const SurfacePoint<double> s = surface_at(frame_.world, hit.ids, cast<double>(ray.o), d, hit.t);
-      const bool blocks = !frame_.whitted.colored_shadows || !frame_.materials[material].transmits;
-      obstacles.push_back(
-          {object_of(frame_.world, instance, geometry, primitive), material, gone + s.t, blocks});
+      const bool see_through = frame_.world.material_transmits[material];
+      const Rgb leaves = see_through ? share_through(frame_, hit.ids, material, s, d) : Rgb{};
+      const bool blocks = is_black(leaves);
+      if (!(leaves == grey(1.0)))  // through a gap
+        obstacles.push_back(
+            {object_of(frame_.world, instance, geometry, primitive), material, gone + s.t, blocks, leaves});
       if (blocks) break;
       gone += s.t;
       left -= max(s.t, 0.0);

@@ -14,7 +14,8 @@ namespace lambent {
 struct Obstacle {
   std::uint32_t object, material;
   double distance;  ///< From where the shadow ray began.
-  bool blocks;      ///< False: it lets light through, times its `transmit`.
+  bool blocks;      ///< False: it lets light through, times
+  Rgb leaves;       ///< this.
 };
 
 /// Why a light does not shine on a surface, the first that holds; or that it does.
@@ -38,6 +39,7 @@ struct DerivedRay {
   SeenRay seen{};
   bool hits = false;
   SeenHit hit{};
+  Material material;  ///< With the numbers that it has at this point.
   std::uint32_t object = 0;
   std::int32_t primitive = 0;  ///< Within its shape.
   Rgb ambient{}, emission{};
@@ -65,7 +67,7 @@ struct Derivation {
   float rendered[color_channels] = {};  ///< The same from the renderer's own sum.
   std::vector<AskedRay> asked;
 
-  const Material& material_of(const DerivedRay& ray) const { return scene->materials[ray.hit.material]; }
+  const Material& material_of(const DerivedRay& ray) const { return ray.material; }
   ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
   /// Whether the terms are the rendered pixel, in every bit.
   bool adds_up() const;

@@ -34,7 +34,8 @@ MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
   const auto s = surface_symbols(derivation, ray);
   const Traced faded = attenuate(ambient_attenuation_of(illumination, model), Traced::symbol("R", ray.hit.R),
                                  Traced(illumination.minimum_distance));
-  const Color<Traced> Ia = color_symbol("Ia", illumination.ambient) * faded;
+  Color<Traced> Ia = color_symbol("Ia", illumination.ambient) * faded;
+  if (illumination.occlusion) Ia = Ia * Traced::symbol("A", ray.hit.open);
   return with_model(model, [&]<class Model>() { return simplified(formulas, ambient_term<Model>(s, Ia)); });
 }
 

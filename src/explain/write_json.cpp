@@ -158,7 +158,7 @@ class Telling {
                                       {"material", materials_[obstacle.material]},
                                       {"distance", obstacle.distance},
                                       {"blocks", obstacle.blocks},
-                                      {"transmit", json(scene_.materials[obstacle.material].transmit)}});
+                                      {"transmit", json(obstacle.leaves)}});
     if (is_black(seen.arriving)) {
       result["diffuse"] = result["specular"] = nullptr;
       return result;

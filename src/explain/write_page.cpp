@@ -72,6 +72,8 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
+    if (const std::string how = how_painted(scene_.materials[ray.hit.material]); !how.empty())
+      page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
     equation("V", text_of(ray.hit.V));
@@ -82,6 +84,18 @@ class Telling {
         ambient_attenuation_of(scene_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
                                                                                                   : " / R",
         model.equation));
+  }
+
+  /// Where the numbers come from, if not from the material alone.
+  static std::string how_painted(const Material& material) {
+    std::string text;
+    if (const auto& m = material.metallic_roughness)
+      text = fmt::format("which are made of base color {}, metallic {}, roughness {}",
+                         short_color(m->base_color), short_number(m->metallic), short_number(m->roughness));
+    if (!material.maps.empty())
+      text += fmt::format("{}{} {} at this point", text.empty() ? "painted by " : ", with ",
+                          material.maps.size(), material.maps.size() == 1 ? "map" : "maps");
+    return text;
   }
 
   void tell_terms(const DerivedRay& ray) {
@@ -139,11 +153,10 @@ class Telling {
   void tell_obstacles(const DerivedLight& light) {
     for (const Obstacle& obstacle : light.obstacles) {
       const Object& object = scene_.objects[obstacle.object];
-      page_.line(fmt::format(
-          "{} {}{}, {} away{}", obstacle.blocks ? "blocked by" : "through", objects_[obstacle.object],
-          place_of(object.place), short_number(obstacle.distance),
-          obstacle.blocks ? ""
-                          : ", which leaves " + short_color(scene_.materials[obstacle.material].transmit)));
+      page_.line(fmt::format("{} {}{}, {} away{}", obstacle.blocks ? "blocked by" : "through",
+                             objects_[obstacle.object], place_of(object.place),
+                             short_number(obstacle.distance),
+                             obstacle.blocks ? "" : ", which leaves " + short_color(obstacle.leaves)));
     }
   }
 

@@ -16,6 +16,8 @@ struct ModelObject {
   std::string name;
   std::uint32_t shape = 0;  ///< Index into Model::shapes.
   Transform world_from_object;
+  /// What Shape::material_of_primitive counts: indices into Model::materials. Empty: all of these.
+  std::vector<std::uint32_t> materials{};
 };
 
 struct NamedCamera {

@@ -7,16 +7,35 @@
 #include "accel/world.h"
 #include "film/layers.h"
 #include "illumination/equation.h"
+#include "illumination/metallic_roughness.h"
 #include "illumination/models.h"
+#include "integrators/texture_lookup.h"
 
 namespace lambent {
 
 struct MaterialRecord {
   Rgb ambient, diffuse, specular, reflect, transmit, emission;
   double shininess, ior;
+  double lobe;  ///< How much wider mirror rays leave than they came, radians.
   double own[max_model_parameters];
-  int model;  ///< ModelId, the scene's where the material names none.
-  bool emits, reflects, transmits;
+  int model;                 ///< ModelId, the scene's where the material names none.
+  bool reflects, transmits;  ///< Somewhere, at least.
+  bool painted;              ///< It is not the same everywhere: paint.h.
+  bool gaps;                 ///< Some rays go on as if it were not there.
+
+  // For paint.h:
+  const MaterialMap* maps;
+  int map_count;
+  double opacity, alpha_cutoff;
+  Alpha alpha;
+  bool one_sided, is_rough, unlit;
+  MetallicRoughnessOf<double, Rgb> rough;
+};
+
+/// The picture around the scene, by longitude and latitude; its texture has no levels where there is none.
+struct EnvironmentRecord {
+  TextureRecord texture{};
+  double turn = 0;  ///< About the y axis, in turns.
 };
 
 /// How light fades under a model: the scene's choice, or the model's own.
@@ -34,14 +53,15 @@ struct CameraRecord {
 };
 
 struct RayCounts {
-  std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0;
+  std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0, ambient = 0;
 };
 
 /// A query, as it was asked.
 enum class RayKind : std::uint32_t { eye, scattered, shadow };
 struct AskedRay {
   float ox, oy, oz, dx, dy, dz;
-  float t_far;  ///< Shadow rays: the way to the light. Otherwise infinity.
+  float t_far;  ///< Shadow rays: the way to the light, or as far as ambient light is looked for. Otherwise
+                ///< infinity.
   RayKind kind;
 };
 /// Whoever wants to know which queries a picture asks, in the order in which they are asked. Called by every
@@ -65,6 +85,11 @@ struct SeenRay {
   Rgb weight;  ///< What its colour counts in its sample: the factors on the way.
 };
 inline constexpr std::uint32_t no_ray = ~std::uint32_t{0};
+/// The material as the equation took it.
+struct SeenMaterial {
+  Rgb ambient, diffuse, specular, emission, reflect, transmit;
+  double shininess, ior;
+};
 struct SeenHit {
   std::uint32_t ray;
   std::int32_t instance, geometry, primitive;
@@ -73,7 +98,9 @@ struct SeenHit {
   Vec3<double> start;  ///< Where its shadow rays begin.
   double t, R;         ///< The ray's length, and the way from the eye.
   bool outside;        ///< Whether the ray came from outside.
-  Rgb Ia;              ///< The ambient light, faded.
+  Rgb Ia;              ///< The ambient light, faded, as much as reaches the point.
+  double open;         ///< The share of it that does.
+  SeenMaterial numbers;
 };
 struct SeenLight {
   std::uint32_t ray;
@@ -120,8 +147,17 @@ struct Frame {
   int light_count;
   bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
   const MaterialRecord* materials;
+  const MaterialRecord* unpainted;  ///< Likewise, as painting begins: before opacity and conversions.
+  const TextureRecord* textures;
+  EnvironmentRecord environment;
+  /// Whether rays carry how wide they are: there are textures. Eye rays begin with these.
+  bool cones = false;
+  double eye_width = 0, eye_spread = 0;
+  bool any_gaps = false;   ///< Whether a material has gaps,
+  bool any_masks = false;  ///< and light goes through them.
   FadingRecord fading[model_count];
   Rgb ambient, background;
+  AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
   double minimum_distance;
   WhittedSettings whitted;
 };
@@ -162,6 +198,7 @@ struct RayQueue {
   Column<std::uint32_t> sample;           ///< Which sample of the batch.
   Column<Way> way;                        ///< How light came that goes along it. Set where somebody looks,
   Column<std::uint32_t> number;           ///< as is the ray's number.
+  Column<double> width, spread;           ///< With frame.cones: how wide it is, and how much wider it gets.
   Column<float> t;                        ///< Found: distance,
   Column<std::int32_t> instance, geometry, primitive;  ///< and which primitive; geometry -1: none.
   Column<std::uint32_t> material;                      ///< Of that primitive,
@@ -171,8 +208,8 @@ struct RayQueue {
   template <class F> void columns(F f) {
     f(ox), f(oy), f(oz), f(dx), f(dy), f(dz), f(R), f(qx), f(qy), f(qz);
     for (auto& w : weight) f(w);
-    f(sample), f(way), f(number), f(t), f(instance), f(geometry), f(primitive), f(material), f(group),
-        f(order);
+    f(sample), f(way), f(number), f(width), f(spread), f(t), f(instance), f(geometry), f(primitive),
+        f(material), f(group), f(order);
   }
 };
 

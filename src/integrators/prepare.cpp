@@ -1,5 +1,8 @@
 #include "integrators/prepare.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "film/pattern.h"
 
 namespace lambent {
@@ -19,24 +22,88 @@ CameraRecord camera_record(const Camera& camera) {
 
 namespace {
 
-MaterialRecord material_record(const Scene& scene, const Material& material) {
+/// As painting begins: before opacity, and before a metallic-roughness material becomes the lecture's.
+MaterialRecord unpainted(const Scene& scene, const Material& material) {
   const ModelId model = model_of(scene, material);
-  MaterialRecord record{.ambient = material.ambient,
-                        .diffuse = material.diffuse,
-                        .specular = material.specular,
-                        .reflect = material.reflect,
-                        .transmit = material.transmit,
-                        .emission = material.emission,
-                        .shininess = material.shininess,
-                        .ior = material.ior,
-                        .own = {},
-                        .model = int(model),
-                        .emits = !is_black(material.emission),
-                        .reflects = !is_black(material.reflect),
-                        .transmits = !is_black(material.transmit)};
+  MaterialRecord record{};
+  record.ambient = material.ambient;
+  record.diffuse = material.diffuse;
+  record.specular = material.specular;
+  record.reflect = material.reflect;
+  record.transmit = material.transmit;
+  record.emission = material.emission;
+  record.shininess = material.shininess;
+  // What is merely not opaque does not bend light.
+  record.ior = is_black(material.transmit) ? 1.0 : material.ior;
+  record.model = int(model);
+  record.maps = material.maps.data();
+  record.map_count = int(material.maps.size());
+  record.opacity = material.opacity;
+  record.alpha = material.alpha;
+  record.alpha_cutoff = material.alpha_cutoff;
+  record.one_sided = material.one_sided;
+  record.painted = record.map_count > 0;
+  record.gaps = material.one_sided || material.alpha == Alpha::mask;
+  record.reflects = !is_black(material.reflect);
+  record.transmits = may_transmit(material);
+  if (const auto& m = material.metallic_roughness) {
+    record.is_rough = true;
+    record.rough = {m->base_color, m->metallic,     m->roughness, m->specular,           m->specular_color,
+                    m->ior,        m->transmission, m->clearcoat, m->clearcoat_roughness};
+    record.reflects = true;
+    record.ior = 1;  // thin, as KHR_materials_transmission has it
+  }
+  record.unlit =
+      !record.is_rough && is_black(record.ambient) && is_black(record.diffuse) && is_black(record.specular);
   for (int i = 0; i < max_model_parameters && info(model).parameters[i].name; ++i)
     record.own[i] = own_number(material, info(model).parameters[i]);
   return record;
+}
+
+/// As it is where nothing is painted on it.
+MaterialRecord material_record(const MaterialRecord& before) {
+  MaterialRecord record = before;
+  if (record.is_rough) {
+    const LectureMaterial<double, Rgb> lecture = lecture_material(record.rough);
+    record.ambient = lecture.ka, record.diffuse = lecture.kd, record.specular = lecture.ks;
+    record.reflect = lecture.reflect, record.transmit = lecture.transmit, record.shininess = lecture.n;
+    record.lobe = 2 * record.rough.roughness * record.rough.roughness;
+  }
+  // A mask that is the same everywhere lets all through or nothing: is_gap() sees to that.
+  if (record.alpha == Alpha::blend && record.opacity < 1) {
+    for (Rgb* color : {&record.ambient, &record.diffuse, &record.specular, &record.emission, &record.reflect,
+                       &record.transmit})
+      *color = record.opacity * *color;
+    record.transmit = record.transmit + grey(1 - record.opacity);
+  }
+  if (!record.painted) {
+    record.reflects = !is_black(record.reflect);
+    record.transmits = !is_black(record.transmit);
+  }
+  return record;
+}
+
+TextureRecord texture_record(const Texture& texture) {
+  return {texture.bytes.empty() ? nullptr : texture.bytes.data(),
+          texture.floats.empty() ? nullptr : texture.floats.data(),
+          texture.decoded.data(),
+          texture.levels.data(),
+          int(texture.levels.size()),
+          texture.channels};
+}
+
+/// Vertices may paint what no map does; what they let through, their materials do.
+void note_vertex_colors(const Scene& scene, std::vector<MaterialRecord>& records) {
+  for (const Object& object : scene.objects) {
+    const Mesh* mesh = std::get_if<Mesh>(&scene.shapes[object.shape].primitives);
+    if (!mesh || mesh->colors.empty()) continue;
+    const bool opaque =
+        std::all_of(mesh->colors.begin(), mesh->colors.end(), [](const auto& c) { return c[3] >= 1; });
+    for (const std::uint32_t m : object.materials) {
+      records[m].transmits |= !opaque;
+      records[m].reflects |= records[m].is_rough;
+    }
+  }
 }
 
 std::uint64_t primitive_count(const Scene& scene) {
@@ -59,6 +126,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   Frame& frame = prepared->frame;
 
   frame.camera = camera_record(scene.camera);
+  const bool is_adaptive = scene.image.is_adaptive();
   const bool corners = scene.image.pattern == Pattern::corners;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
@@ -81,9 +149,28 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.light_count = int(prepared->lights.size());
   for (const AnyLight& light : prepared->lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
-  for (const Material& material : scene.materials)
-    prepared->materials.push_back(material_record(scene, material));
+  for (const Material& material : scene.materials) {
+    prepared->unpainted.push_back(unpainted(scene, material));
+    prepared->materials.push_back(material_record(prepared->unpainted.back()));
+  }
+  note_vertex_colors(scene, prepared->materials);
   frame.materials = prepared->materials.data();
+  frame.unpainted = prepared->unpainted.data();
+  for (const MaterialRecord& record : prepared->unpainted) {
+    frame.any_gaps |= record.gaps;
+    frame.any_masks |= record.alpha == Alpha::mask && record.transmits;
+  }
+  for (const Texture& texture : scene.textures) prepared->textures.push_back(texture_record(texture));
+  frame.textures = prepared->textures.data();
+  if (scene.background_image) {
+    frame.environment.texture = prepared->textures[*scene.background_image];
+    frame.environment.turn = scene.background_turn / 360;
+  }
+  frame.cones = !scene.textures.empty();
+  // A pixel's samples share its width.
+  const double share = 1 / std::sqrt(double(is_adaptive ? scene.image.adaptive->start : frame.samples));
+  frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
+  frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
   frame.layers.lights = frame.light_count;
   if (scene.whitted.max_depth > 1)
     for (const Object& object : scene.objects)
@@ -96,6 +183,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     frame.fading[model] = {attenuation_of(scene.illumination, ModelId(model)),
                            ambient_attenuation_of(scene.illumination, ModelId(model))};
   frame.ambient = scene.illumination.ambient;
+  if (scene.illumination.occlusion) frame.occlusion = *scene.illumination.occlusion;
   frame.minimum_distance = scene.illumination.minimum_distance;
   frame.background = scene.background;
   frame.whitted = scene.whitted;

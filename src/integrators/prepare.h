@@ -13,7 +13,8 @@ struct PreparedFrame {
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
   std::vector<AnyLight> lights;
-  std::vector<MaterialRecord> materials;
+  std::vector<MaterialRecord> materials, unpainted;
+  std::vector<TextureRecord> textures;
 };
 
 /// Lays a scene out for the kernels; builds its trees.

@@ -14,9 +14,11 @@
 //
 // This file is compiled once for each instruction set.
 
+#include "accel/coordinates.h"
 #include "accel/surface.h"
 #include "illumination/equation.h"
 #include "integrators/frame.h"
+#include "integrators/paint.h"
 
 namespace lambent {
 inline namespace LAMBENT_ISA {
@@ -37,7 +39,7 @@ constexpr std::uint32_t batch_size =
     1024;  // samples that are followed together: what they need fits the cache
 
 constexpr int kinds = int(PrimitiveKind::instance);
-constexpr int group_count = kinds * 2 * model_count;
+constexpr int group_count = kinds * 2 * 2 * model_count;
 constexpr std::uint8_t no_group = 255;
 static_assert(group_count < no_group);
 
@@ -122,6 +124,7 @@ template <bool Seen> struct Work {
       }
     }
     counts.eye += count;
+    if (frame.cones) begin_cones(count);
     if constexpr (Seen) {
       clear_layers(count);
       for (std::uint32_t i = 0; i < count; ++i) {
@@ -129,6 +132,18 @@ template <bool Seen> struct Work {
         if (!frame.witness) continue;
         tell_ray(rays, i, no_ray, Way::direct, false, grey(1.0));
       }
+    }
+  }
+
+  /// How wide eye rays are: a pixel, or a sample's share of one. Off the picture's middle pixels cover less
+  /// of the directions.
+  void begin_cones(std::uint32_t count) const {
+    RayQueue& rays = scratch.rays;
+    const Vec3<double>& forward = frame.camera.forward;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const double cosine = rays.dx[i] * forward.x + rays.dy[i] * forward.y + rays.dz[i] * forward.z;
+      rays.width[i] = frame.eye_width;
+      rays.spread[i] = frame.eye_spread * cosine * cosine;
     }
   }
 
@@ -143,6 +158,32 @@ template <bool Seen> struct Work {
       for (std::uint32_t i = 0; i < rays.count; i += beam * lanes) trace_packets(rays, i);
     else
       for (std::uint32_t i = 0; i < rays.count; ++i) trace_one(rays, i);
+    if (frame.any_gaps)
+      for (std::uint32_t i = 0; i < rays.count; ++i) pass_gaps(rays, i);
+  }
+
+  /// Takes a ray on through surfaces that are not there for it: the gaps of masks, and one-sided surfaces
+  /// from inside.
+  void pass_gaps(RayQueue& rays, std::uint32_t i) const {
+    const Vec3<double> o{rays.ox[i], rays.oy[i], rays.oz[i]}, d{rays.dx[i], rays.dy[i], rays.dz[i]};
+    QueryRay<float> ray({rays.qx[i], rays.qy[i], rays.qz[i]}, cast<float>(d));
+    // Each turn leaves a surface behind; a ray that runs along one may find it again.
+    for (int turns_left = 10000; rays.geometry[i] >= 0 && turns_left > 0; --turns_left) {
+      const HitIds<std::int32_t> ids{rays.instance[i], rays.geometry[i], rays.primitive[i]};
+      const std::uint32_t material = material_of(frame.world, ids.instance, ids.geometry, ids.primitive);
+      if (!frame.materials[material].gaps) return;
+      const SurfacePoint<double> s = surface_at(frame.world, ids, o, d, rays.t[i]);
+      const double width = frame.cones ? rays.width[i] + rays.spread[i] * s.t : 0;
+      if (!is_gap(frame, ids, material, s, d, width)) return;
+      const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
+      ray.o = cast<float>(s.P + side * s.offset * s.Ng);
+      Closest<float> hit{__builtin_inff()};
+      find_closest(frame.world, ray, true, hit);
+      rays.t[i] = float(s.t + hit.t);
+      rays.instance[i] = hit.ids.instance;
+      rays.geometry[i] = hit.ids.geometry;
+      rays.primitive[i] = hit.ids.primitive;
+    }
   }
 
   /// `beam` packets from ray `first` on, together.
@@ -199,14 +240,17 @@ template <bool Seen> struct Work {
     for (std::uint32_t i = 0; i < rays.count; ++i) {
       if (rays.geometry[i] < 0) {
         rays.group[i] = no_group;
-        add(i, frame.background);
-        if constexpr (Seen) add_background(i);
+        const Rgb background = background_of(i);
+        add(i, background);
+        if constexpr (Seen) add_background(i, background);
         continue;
       }
       rays.material[i] = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
-      const int kind = int(frame.world.geometries[rays.geometry[i]].kind);
+      const Geometry& geometry = frame.world.geometries[rays.geometry[i]];
+      const MaterialRecord& material = frame.materials[rays.material[i]];
+      const bool painted = material.painted || geometry.colors;
       const int group =
-          (kind * 2 + (rays.instance[i] >= 0)) * model_count + frame.materials[rays.material[i]].model;
+          ((int(geometry.kind) * 2 + (rays.instance[i] >= 0)) * 2 + painted) * model_count + material.model;
       rays.group[i] = std::uint8_t(group);
       ++size[group];
     }
@@ -216,6 +260,12 @@ template <bool Seen> struct Work {
     for (int g = 0; g < group_count; ++g) next[g] = group_first[g];
     for (std::uint32_t i = 0; i < rays.count; ++i)
       if (rays.group[i] != no_group) rays.order[next[rays.group[i]]++] = i;
+  }
+
+  Rgb background_of(std::uint32_t i) const {
+    const RayQueue& rays = scratch.rays;
+    if (!frame.environment.texture.levels) return frame.background;
+    return background_along(frame, {rays.dx[i], rays.dy[i], rays.dz[i]}, rays.spread[i]);
   }
 
   /// Adds a ray's colour to its sample.
@@ -271,17 +321,25 @@ template <bool Seen> struct Work {
     }
   };
 
+  /// The materials of a packet of hits on painted surfaces.
+  struct Painted {
+    C ka, kd, ks, emission, reflect, transmit;
+    F n, ior;
+    double lobe[lanes];
+  };
+
   /// A packet of hits: all that is known of them.
   struct Hits {
     Vec3<F> P, N, V;
     Vec3<F> G;            ///< Geometric normal; as N on V's side.
     F R;                  ///< Distance from the eye, over all bounces.
-    F t;                  ///< The ray's length; only where somebody looks.
+    F t;                  ///< The ray's length.
     Vec3<F> lifted;       ///< P, lifted to the smooth surface that it stands for.
     Vec3<F> front, back;  ///< Where rays start that leave on V's side, and those that go through.
     Truth outside;        ///< Whether V is on the outside.
     std::uint32_t material[lanes];
     bool one_material;
+    const Painted* painted = nullptr;  ///< Of hits on painted surfaces.
   };
 
   /// Packets of hits whose shadow rays go through the tree together.
@@ -289,6 +347,7 @@ template <bool Seen> struct Work {
     int count = 0;
     Lanes at[beam];
     Hits hits[beam];
+    Painted painted[beam];
   };
 
   void shade_group(int group, bool follow_on) {
@@ -298,6 +357,7 @@ template <bool Seen> struct Work {
       for (; first < last && block.count < beam; first += lanes, ++block.count) {
         block.at[block.count] = lanes_from(first, last);
         block.hits[block.count] = look(block.at[block.count]);
+        if (group / model_count % 2) paint_hits(block, block.count);
         if constexpr (Seen) {
           if (depth == 1 && task.first_hits) note_first_hits(block.at[block.count], block.hits[block.count]);
         }
@@ -344,8 +404,79 @@ template <bool Seen> struct Work {
     hits.front = hits.lifted + s.offset * hits.G;
     hits.back = s.P - s.offset * hits.G;
     hits.R = at.load(rays.R) + s.t;
-    if constexpr (Seen) hits.t = s.t;
+    hits.t = s.t;
     return hits;
+  }
+
+  /// Looks the materials of painted surfaces up, lane by lane, and tilts N.
+  [[gnu::noinline]] void paint_hits(Block& block, int packet) const {
+    const RayQueue& rays = scratch.rays;
+    const Lanes& at = block.at[packet];
+    Hits& hits = block.hits[packet];
+    Paint paints[lanes];
+    for (int k = 0; k < lanes; ++k) {
+      if (k >= at.count) {
+        paints[k] = paints[at.count - 1];
+        continue;
+      }
+      const std::uint32_t ray = at.ray[k];
+      const double side = lane_bits(hits.outside) >> k & 1 ? 1.0 : -1.0;
+      const Vec3<double> d = -lane_vector(hits.V, k);
+      const double width = frame.cones ? rays.width[ray] + rays.spread[ray] * lane(hits.t, k) : 0;
+      paints[k] = paint(frame, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]},
+                        hits.material[k], lane_vector(hits.P, k), side * lane_vector(hits.N, k),
+                        side * lane_vector(hits.G, k), d, width);
+      paints[k].N = side * paints[k].N;
+    }
+    const auto color = [&](Rgb Paint::*member) {
+      C result;
+      for (int c = 0; c < color_channels; ++c)
+        result[c] = gather<F>([&](int k) { return (paints[k].*member)[c]; });
+      return result;
+    };
+    Painted& painted = block.painted[packet];
+    painted.ka = color(&Paint::ka), painted.kd = color(&Paint::kd), painted.ks = color(&Paint::ks);
+    painted.emission = color(&Paint::emission);
+    painted.reflect = color(&Paint::reflect), painted.transmit = color(&Paint::transmit);
+    painted.n = gather<F>([&](int k) { return paints[k].n; });
+    painted.ior = gather<F>([&](int k) { return paints[k].ior; });
+    for (int k = 0; k < lanes; ++k) painted.lobe[k] = paints[k].lobe;
+    hits.N = gather_points<F>([&](int k) -> const Vec3<double>& { return paints[k].N; });
+    hits.painted = &painted;
+  }
+
+  // The numbers of the hits' materials.
+  C ambient_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->ka
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.ambient; });
+  }
+  C diffuse_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->kd
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.diffuse; });
+  }
+  C specular_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->ks
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.specular; });
+  }
+  F shininess_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->n
+                        : of_materials(hits, [](const MaterialRecord& m) { return m.shininess; });
+  }
+  C emission_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->emission
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+  }
+  C reflect_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->reflect
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.reflect; });
+  }
+  C transmit_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->transmit
+                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.transmit; });
+  }
+  F ior_of(const Hits& hits) const {
+    return hits.painted ? hits.painted->ior
+                        : of_materials(hits, [](const MaterialRecord& m) { return m.ior; });
   }
 
   /// A number of the hits' materials.
@@ -368,10 +499,10 @@ template <bool Seen> struct Work {
     Surface<F, C> s;
     s.N = hits.N;
     s.V = hits.V;
-    s.ka = colors_of_materials(hits, [](const MaterialRecord& m) { return m.ambient; });
-    s.kd = colors_of_materials(hits, [](const MaterialRecord& m) { return m.diffuse; });
-    s.ks = colors_of_materials(hits, [](const MaterialRecord& m) { return m.specular; });
-    s.n = of_materials(hits, [](const MaterialRecord& m) { return m.shininess; });
+    s.ka = ambient_of(hits);
+    s.kd = diffuse_of(hits);
+    s.ks = specular_of(hits);
+    s.n = shininess_of(hits);
     for (int i = 0; i < max_model_parameters; ++i)
       if (Model::info.parameters[i].name)
         s.own[i] = of_materials(hits, [&](const MaterialRecord& m) { return m.own[i]; });
@@ -383,10 +514,12 @@ template <bool Seen> struct Work {
     C Ia;
     for (int c = 0; c < color_channels; ++c)
       Ia[c] = F(frame.ambient[c]) * attenuate(fading.ambient, hits.R, minimum);
+    const F open = frame.occlusion.rays > 0 ? open_share(at, hits) : F(1);
+    if (frame.occlusion.rays > 0) Ia = Ia * open;
 
     if constexpr (Seen) {
       if (frame.witness) {
-        tell_hits(at, hits, Ia);
+        tell_hits(at, hits, Ia, open);
         for (int number = 0; number < light_count; ++number)
           tell_light(number, packet, at, hits, fading.attenuation);
       }
@@ -405,7 +538,7 @@ template <bool Seen> struct Work {
       return {light.L, share_that_passes(open, hits, light) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };
-    const C emission = colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    const C emission = emission_of(hits);
     if constexpr (Seen) {
       see_term(at, LayerPlan::emission, Term::emission, -1, emission);
       const C I = illuminate<Model>(s, Ia, light_count, arriving, [&](Term term, int number, const C& color) {
@@ -457,7 +590,9 @@ template <bool Seen> struct Work {
     return {number_cast<float>(hits.front), number_cast<float>(L)};
   }
 
-  bool all_opaque() const { return !frame.any_transmits || !frame.whitted.colored_shadows; }
+  bool all_opaque() const {
+    return !frame.any_transmits || (!frame.whitted.colored_shadows && !frame.any_masks);
+  }
 
   [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
                                       MaskOf<Query>* open) const {
@@ -476,6 +611,46 @@ template <bool Seen> struct Work {
           set_lane(open[i], k, false);
       }
     }
+  }
+
+  /// The share of the sky above the hits that nothing hides. Directions are those of Roberts' R2 sequence
+  /// (2018), by Malley's method as dense as their cosine with N, turned in each pixel by a hash of its place.
+  [[gnu::noinline]] F open_share(const Lanes& at, const Hits& hits) {
+    const RayQueue& rays = scratch.rays;
+    const AmbientOcclusion& occlusion = frame.occlusion;
+    double share[lanes] = {};
+    for (int k = 0; k < at.count; ++k) {
+      const std::uint64_t number = first_of_batch + rays.sample[at.ray[k]];
+      const Pixel& pixel = task.pixels[number / std::uint64_t(samples_per_pixel())];
+      const std::uint64_t sample =
+          std::uint64_t(task.first_sample) + number % std::uint64_t(samples_per_pixel());
+      const std::uint64_t hash = hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y));
+      const double turn_u = double(hash >> 32) * 0x1p-32, turn_v = double(hash & 0xffffffff) * 0x1p-32;
+      const Vec3<double> N = lane_vector(hits.N, k), G = lane_vector(hits.G, k);
+      Vec3<double> a, b;
+      axes_across(N, a, b);
+      const Vec3<float> start = cast<float>(lane_vector(hits.front, k));
+      int open = 0;
+      for (int j = 0; j < occlusion.rays; ++j) {
+        const double i = double(sample) * occlusion.rays + j;
+        double u = turn_u + i * 0.7548776662466927, v = turn_v + i * 0.5698402909980532;
+        u -= __builtin_floor(u), v -= __builtin_floor(v);
+        const auto [sine, cosine] = sincos_degrees(360 * v);
+        const double radius = sqrt(u);
+        Vec3<double> d = (radius * cosine) * a + (radius * sine) * b + sqrt(1 - u) * N;
+        // A smooth normal may lean so far that some directions lie below the surface itself.
+        if (const double below = dot(d, G); below < 0) d = d - 2 * below * G;
+        const QueryRay<float> ray(start, cast<float>(d));
+        const auto t_far = float(occlusion.distance);
+        if (frame.listener)
+          frame.listener->asked(frame.listener->self, {ray.o.x, ray.o.y, ray.o.z, ray.d.x, ray.d.y, ray.d.z,
+                                                       t_far, RayKind::shadow});
+        open += !find_occluded(frame.world, ray, true, t_far, !frame.any_transmits);
+      }
+      counts.ambient += std::uint64_t(occlusion.rays);
+      share[k] = double(open) / occlusion.rays;
+    }
+    return F::load(share);
   }
 
   /// How much of a light arrives at the lanes that it reaches: all, or what transmitting surfaces leave of
@@ -519,10 +694,10 @@ template <bool Seen> struct Work {
       find_closest(frame.world, ray, true, hit);
       if (hit.ids.geometry < 0) return result;
       const SurfacePoint<double> s = surface_at(frame.world, hit.ids, cast<double>(ray.o), d, hit.t);
-      result =
-          result *
-          frame.materials[material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive)]
-              .transmit;
+      result = result *
+               share_through(frame, hit.ids,
+                             material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive),
+                             s, d);
       if (is_black(result)) return result;
       const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
       left = left - max(s.t, 0.0);
@@ -566,8 +741,8 @@ template <bool Seen> struct Work {
 
     C weight;
     for (int c = 0; c < color_channels; ++c) weight[c] = at.load(scratch.rays.weight[c]);
-    C mirrored = colors_of_materials(hits, [](const MaterialRecord& m) { return m.reflect; });
-    const C through = colors_of_materials(hits, [](const MaterialRecord& m) { return m.transmit; });
+    C mirrored = reflect_of(hits);
+    const C through = transmit_of(hits);
     // Rays are asked for where the material does either.
     const Truth concerned = both(at.active, Truth(of_materials(hits, [](const MaterialRecord& m) {
                                                     return m.reflects || m.transmits ? 1.0 : 0.0;
@@ -575,7 +750,7 @@ template <bool Seen> struct Work {
     Refraction bent{};
     Truth refracted(false), total(false);
     if (transmits) {
-      const F ior = of_materials(hits, [](const MaterialRecord& m) { return m.ior; });
+      const F ior = ior_of(hits);
       bent = refract(hits, select(hits.outside, F(1) / ior, ior));
       const Truth asked = both(concerned, Truth(!is_black(through)));
       refracted = both(asked, bent.passes);
@@ -613,6 +788,7 @@ template <bool Seen> struct Work {
       rays.R[i] = R[k];
       for (int c = 0; c < color_channels; ++c) rays.weight[c][i] = leaving.weight[c][k];
       rays.sample[i] = scratch.rays.sample[at.ray[k]];
+      if (frame.cones) widen(rays, i, at.ray[k], hits, k, &leaving == &mirror_rays);
       if constexpr (Seen) {
         const Way way = &leaving == &mirror_rays ? Way::reflection : Way::refraction;
         const Way so_far = scratch.rays.way[at.ray[k]];
@@ -628,6 +804,24 @@ template <bool Seen> struct Work {
       if (mirror_bits >> k & 1) push(mirror_rays, k);
       if (through_bits >> k & 1) push(through_rays, k);
     }
+  }
+
+  /// How wide ray i of the queue is that leaves hit k: a mirror that is curved spreads it, and so does a
+  /// rough one. What goes through goes on as it was.
+  void widen(RayQueue& rays, std::uint32_t i, std::uint32_t parent, const Hits& hits, int k,
+             bool mirrored) const {
+    const RayQueue& before = scratch.rays;
+    const double width = before.width[parent] + before.spread[parent] * lane(hits.t, k);
+    rays.width[i] = width;
+    rays.spread[i] = before.spread[parent];
+    if (!mirrored) return;
+    const double curvature =
+        coordinates_at(frame.world,
+                       {before.instance[parent], before.geometry[parent], before.primitive[parent]},
+                       lane_vector(hits.P, k))
+            .curvature;
+    rays.spread[i] += 2 * curvature * width +
+                      (hits.painted ? hits.painted->lobe[k] : frame.materials[hits.material[k]].lobe);
   }
 
   /// Rays of a packet that leave their hits, laid out to be taken one by one.
@@ -708,12 +902,10 @@ template <bool Seen> struct Work {
     for (int c = 0; c < color_channels; ++c)
       layer_column(layer, c)[sample] += scratch.rays.weight[c][ray] * color[c];
   }
-  void add_background(std::uint32_t ray) {
+  void add_background(std::uint32_t ray, const Rgb& background) {
     if (task.layer_sums)
-      add_to_layer(ray, frame.layers.first_of(scratch.rays.way[ray]) + LayerPlan::background,
-                   frame.background);
-    if (frame.witness)
-      frame.witness->color(frame.witness->self, {scratch.rays.number[ray], frame.background});
+      add_to_layer(ray, frame.layers.first_of(scratch.rays.way[ray]) + LayerPlan::background, background);
+    if (frame.witness) frame.witness->color(frame.witness->self, {scratch.rays.number[ray], background});
   }
 
   static Rgb lane_color(const C& color, int k) {
@@ -743,16 +935,30 @@ template <bool Seen> struct Work {
     for (int c = 0; c < color_channels; ++c) seen.weight[c] = rays.weight[c][i];
     frame.witness->ray(frame.witness->self, seen);
   }
-  void tell_hits(const Lanes& at, const Hits& hits, const C& Ia) const {
+  void tell_hits(const Lanes& at, const Hits& hits, const C& Ia, const F& open) const {
     const RayQueue& rays = scratch.rays;
     for (int k = 0; k < at.count; ++k) {
       const std::uint32_t ray = at.ray[k];
-      frame.witness->hit(
-          frame.witness->self,
-          {rays.number[ray], rays.instance[ray], rays.geometry[ray], rays.primitive[ray], hits.material[k],
-           lane_vector(hits.P, k), lane_vector(hits.N, k), lane_vector(hits.G, k), lane_vector(hits.V, k),
-           lane_vector(hits.front, k), lane(hits.t, k), lane(hits.R, k),
-           bool(lane_bits(hits.outside) >> k & 1), lane_color(Ia, k)});
+      frame.witness->hit(frame.witness->self,
+                         {rays.number[ray],
+                          rays.instance[ray],
+                          rays.geometry[ray],
+                          rays.primitive[ray],
+                          hits.material[k],
+                          lane_vector(hits.P, k),
+                          lane_vector(hits.N, k),
+                          lane_vector(hits.G, k),
+                          lane_vector(hits.V, k),
+                          lane_vector(hits.front, k),
+                          lane(hits.t, k),
+                          lane(hits.R, k),
+                          bool(lane_bits(hits.outside) >> k & 1),
+                          lane_color(Ia, k),
+                          lane(open, k),
+                          {lane_color(ambient_of(hits), k), lane_color(diffuse_of(hits), k),
+                           lane_color(specular_of(hits), k), lane_color(emission_of(hits), k),
+                           lane_color(reflect_of(hits), k), lane_color(transmit_of(hits), k),
+                           lane(shininess_of(hits), k), lane(ior_of(hits), k)}});
     }
   }
   /// What `arriving` in shade() makes of a light, number by number.
@@ -785,7 +991,7 @@ template <bool Seen> struct Work {
 
   void note_first_hits(const Lanes& at, const Hits& hits) const {
     const RayQueue& rays = scratch.rays;
-    const C albedo = colors_of_materials(hits, [](const MaterialRecord& m) { return m.diffuse; });
+    const C albedo = diffuse_of(hits);
     for (int k = 0; k < at.count; ++k) {
       const std::uint32_t ray = at.ray[k];
       FirstHit& first = task.first_hits[first_of_batch + rays.sample[ray]];
@@ -795,8 +1001,11 @@ template <bool Seen> struct Work {
       first.primitive = rays.primitive[ray];
       first.R = float(lane(hits.R, k));
       const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(hits.N, k);
-      const Vec2<double> uv =
-          uv_at(frame.world, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]}, P);
+      const Geometry& geometry = frame.world.geometries[rays.geometry[ray]];
+      Vec2<double> uv{};
+      if (geometry.uvs)
+        uv = coordinates_at(frame.world, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]}, P)
+                 .uv[0];
       first.P[0] = float(P.x), first.P[1] = float(P.y), first.P[2] = float(P.z);
       first.N[0] = float(N.x), first.N[1] = float(N.y), first.N[2] = float(N.z);
       first.uv[0] = float(uv.x), first.uv[1] = float(uv.y);

@@ -78,5 +78,34 @@ template <class D> SinCos<D> sincos_degrees(D degrees) {
           select(either(quarter == D(1.0), quarter == D(2.0)), -cosine, cosine)};
 }
 
+/// Bits that have nothing to do with those of x, as far as one can see (the finalizer of Steele, Lea and
+/// Flood, Fast splittable pseudorandom number generators, 2014).
+constexpr std::uint64_t hashed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// The angle of the point (x, y) seen from the origin, in turns from the x axis towards the y axis: -1/2 to
+/// 1/2; 0 at the origin.
+inline double turns(double y, double x) {
+  const double ax = abs(x), ay = abs(y), larger = max(ax, ay);
+  if (!(larger > 0)) return 0;
+  // Half the angle, twice: tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)) <= tan(pi / 16).
+  double q = min(ax, ay) / larger;
+  q = q / (1 + sqrt(1 + q * q));
+  q = q / (1 + sqrt(1 + q * q));
+  const double q2 = q * q;
+  double s = -1.0 / 23.0;
+  for (double c : {1.0 / 21.0, -1.0 / 19.0, 1.0 / 17.0, -1.0 / 15.0, 1.0 / 13.0, -1.0 / 11.0, 1.0 / 9.0,
+                   -1.0 / 7.0, 1.0 / 5.0, -1.0 / 3.0, 1.0})
+    s = s * q2 + c;
+  double angle = s * q * (4 * 0.15915494309189535);  // radians to turns
+  if (ay > ax) angle = 0.25 - angle;
+  if (x < 0) angle = 0.5 - angle;
+  return y < 0 ? -angle : angle;
+}
+
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -1,5 +1,6 @@
 #include "scene/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -77,6 +78,13 @@ bool planes_in_reach(const Shape& shape, const Transform& world_from_object) {
 }
 
 }  // namespace
+
+bool may_transmit(const Material& material) {
+  return !is_black(material.transmit) || material.opacity < 1 ||
+         (material.metallic_roughness && material.metallic_roughness->transmission > 0) ||
+         std::any_of(material.maps.begin(), material.maps.end(),
+                     [](const MaterialMap& one) { return one.slot == MapSlot::opacity; });
+}
 
 ModelId model_of(const Scene& scene, const Material& material) {
   return material.model.value_or(scene.illumination.model);

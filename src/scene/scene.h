@@ -113,6 +113,22 @@ inline constexpr Parameter<FilmSettings> parameters_of<FilmSettings>[] = {
      "exactly; and depth, normals, albedo and who is where. See layers.md."},
 };
 
+/// How much of the ambient light reaches a point: the share of the directions around it, each as much as its cosine with
+/// N counts, in which nothing stands within `distance`.
+struct AmbientOcclusion {
+  int rays = 1;
+  double distance = 1e10;
+};
+template <>
+inline constexpr Parameter<AmbientOcclusion> parameters_of<AmbientOcclusion>[] = {
+    {"rays",
+     &AmbientOcclusion::rays,
+     {1, 4096},
+     "",
+     "Directions that each sample looks in; a pixel's samples look in different ones."},
+    {"distance", &AmbientOcclusion::distance, positive, "scene units", "What stands farther away hides nothing."},
+};
+
 /// The choices of the lecture that hold for the whole scene.
 struct Illumination {
   ModelId model = ModelId::phong;
@@ -120,6 +136,7 @@ struct Illumination {
   std::optional<Attenuation> attenuation;                 ///< Unset: the model's own.
   std::optional<AmbientAttenuation> ambient_attenuation;  ///< Likewise.
   double minimum_distance = 1e-3;
+  std::optional<AmbientOcclusion> occlusion;
 };
 template <>
 inline constexpr Parameter<Illumination> parameters_of<Illumination>[] = {
@@ -184,6 +201,26 @@ struct MetallicRoughness {
   double clearcoat = 0, clearcoat_roughness = 0;
 };
 
+template <>
+inline constexpr Parameter<MetallicRoughness> parameters_of<MetallicRoughness>[] = {
+    {"base_color", &MetallicRoughness::base_color, zero_to_one, "",
+     "The color of a metal's reflection, or of what is scattered by everything else."},
+    {"metallic", &MetallicRoughness::metallic, zero_to_one, "", "1 for metals, 0 for everything else."},
+    {"roughness", &MetallicRoughness::roughness, zero_to_one, "", "0 for a mirror, 1 for chalk."},
+    {"specular", &MetallicRoughness::specular, zero_to_one, "",
+     "Factor on what reflects without being a metal."},
+    {"specular_color", &MetallicRoughness::specular_color, at_least_zero, "", "Likewise, by channel."},
+    {"ior",
+     &MetallicRoughness::ior,
+     {1, 100},
+     "",
+     "Index of refraction; it says how much reflects. Light goes through unbent."},
+    {"transmission", &MetallicRoughness::transmission, zero_to_one, "",
+     "Share of the light that is not reflected which goes through."},
+    {"clearcoat", &MetallicRoughness::clearcoat, zero_to_one, "", "Strength of a layer of varnish."},
+    {"clearcoat_roughness", &MetallicRoughness::clearcoat_roughness, zero_to_one, "", "Its own roughness."},
+};
+
 /// What becomes of a surface's opacity.
 enum class Alpha : std::uint8_t {
   blend,  ///< What is not opaque shows what lies behind, straight on.
@@ -213,6 +250,8 @@ struct Material {
   std::optional<ModelId> model;       ///< Unset: the scene's.
   std::map<std::string, double> own;  ///< The models' own parameters that the file gives, by name.
 };
+/// Whether light can go through it somewhere: by `transmit`, by what is not opaque of it, or through gaps.
+bool may_transmit(const Material& material);
 template <>
 inline constexpr Parameter<Material> parameters_of<Material>[] = {
     {"ambient", &Material::ambient, at_least_zero, "",
@@ -236,6 +275,16 @@ inline constexpr Parameter<Material> parameters_of<Material>[] = {
      "Index of refraction of what lies behind the surface; 1 does not bend."},
     {"emission", &Material::emission, at_least_zero, "",
      "Light of its own, added to everything; it lights no other surface."},
+    {"opacity", &Material::opacity, zero_to_one, "",
+     "How much of the surface is there: this share of its colour is seen, and the rest of what lies behind, "
+     "straight on."},
+    {"alpha_cutoff", &Material::alpha_cutoff, zero_to_one, "",
+     "With `alpha: mask`: where the opacity is less, there is no surface."},
+    {"one_sided",
+     &Material::one_sided,
+     {},
+     "",
+     "Whether rays that come from inside do not see it. It casts shadows all the same."},
 };
 
 // ---- shapes: arrays of primitives of one kind
@@ -303,8 +352,8 @@ struct Mesh {
   /// Linear R, G, B, and opacity: factors on the material's ambient and diffuse colour (or its base colour)
   /// and on its opacity.
   std::vector<std::array<float, 4>> colors;
-  /// Unit vector along growing u, and the side (1 or -1) to which normal x tangent points against growing v.
-  /// For normal maps; made of the triangle's texture coordinates where empty.
+  /// For normal maps: the unit vector T along growing u, and a sign s, so that s (N x T) points along growing
+  /// v. Made of the triangle's texture coordinates where empty.
   std::vector<std::array<float, 4>> tangents;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
@@ -346,7 +395,10 @@ struct Scene {
   Illumination illumination;
   WhittedSettings whitted;           ///< With a view: the rays that View::rays counts.
   std::optional<ViewSettings> view;  ///< In place of the colours.
-  Rgb background{0, 0, 0};
+  Rgb background{0, 0, 0};           ///< What rays see that meet nothing; with an image a factor on it.
+  /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
+  std::optional<std::uint32_t> background_image;
+  double background_turn = 0;  ///< Degrees about the y axis, counter-clockwise from above.
   std::vector<Light> lights;
   std::vector<Texture> textures;
   std::vector<Material> materials;

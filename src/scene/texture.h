@@ -19,6 +19,8 @@ struct ImageSource {
   std::string file;  ///< The path to open. Empty: it is in `bytes`.
   std::shared_ptr<const std::string> bytes;
   Place place;  ///< Where it is asked for; line 0 where the format has no lines.
+  bool required =
+      false;  ///< Whether nothing can stand in where it is missing or damaged; else there is a warning.
 };
 
 /// An image in levels of detail: the first is the image itself, each further one has half as many texels each
@@ -38,6 +40,7 @@ struct Texture {
   std::vector<Level> levels;        ///< Row 0 is the image's top.
   std::vector<std::uint8_t> bytes;  ///< Texels as in the file (encoded, if `srgb`); or
   std::vector<float> floats;        ///< linear, where 8 bits do not hold them. One of the two is empty.
+  std::vector<float> decoded;       ///< With `bytes`: what each of the 256 means in a colour channel, linear.
 };
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/scene.h"
+#include "scenefile/map_settings.h"
 #include "scenefile/names.h"
 #include "scenefile/shape_settings.h"
 
@@ -157,14 +158,47 @@ std::vector<Section> shape_sections() {
                      "One direction for each vertex, of any length; without them the faces are flat. [0, 0, "
                      "0] stands for the face's own."),
                field("uvs", FieldType::uvs, "", "Two texture coordinates for each vertex.")}),
+      section("scene", "the objects of another scene file",
+              {required(
+                  "file", FieldType::file,
+                  "A scene file, looked for beside this one. Its objects with their materials are shown; its "
+                  "camera, lights and all else are not used.")}),
   };
 }
 
+std::string sentence_of(MapSlot slot) {
+  switch (slot) {
+    case MapSlot::normal:
+      return "Tilts N: red, green and blue are its parts along u, v and N, from -1 to 1.";
+    case MapSlot::bump:
+      return "Tilts N as if the surface had these heights.";
+    case MapSlot::occlusion:
+      return "Multiplies the ambient term alone.";
+    case MapSlot::opacity:
+      return "Multiplies `opacity`.";
+    case MapSlot::specular_factor:
+      return "Multiplies `specular` of `metallic_roughness`.";
+    default:
+      break;
+  }
+  std::string text = "Multiplies `" + text_of(slot) + "`";
+  return text + (slot >= MapSlot::base_color ? " of `metallic_roughness`." : ".");
+}
+
 Section material_section(const std::vector<Section>& models) {
-  Section material = section("material", "what a surface does with light",
-                             std::vector{choice("model", names_of(models), "",
-                                                "The illumination model; the scene's where not given.")} +
-                                 fields_of<Material>());
+  Section material =
+      section("material", "what a surface does with light",
+              std::vector{choice("model", names_of(models), "",
+                                 "The illumination model; the scene's where not given.")} +
+                  fields_of<Material>() +
+                  std::vector{choice("alpha", names_of<Alpha>(), text_of(Material{}.alpha),
+                                     "What becomes of opacity: `blend` shows through, `mask` cuts out."),
+                              field("metallic_roughness", FieldType::section, "",
+                                    "In place of ambient, diffuse, specular, shininess, reflect, transmit "
+                                    "and ior."),
+                              field("maps", FieldType::section, "",
+                                    "Images on the surface, each of which multiplies what it is named "
+                                    "after.")});
   for (const Section& model : models)
     for (const Field& own : model.fields)
       if (find(material.fields, own.name) == nullptr) material.fields.push_back(own);
@@ -177,6 +211,35 @@ Format make_format() {
   f.lights = light_sections();
   f.shapes = shape_sections();
   f.material = material_section(f.models);
+  f.background = section(
+      "background", "a picture all around the scene, by longitude and latitude",
+      {required("file", FieldType::file, "The image (HDR, EXR, PNG, ...), looked for beside the scene file."),
+       with(field("turn", FieldType::number, "0", "A turn about the y axis, counter-clockwise from above."),
+            {}, "degrees"),
+       with(field("color", FieldType::color, "[1, 1, 1]", "A factor on it."), at_least_zero, "")});
+  f.metallic_roughness = section("metallic_roughness", "a material as glTF and modelling programs have it",
+                                 fields_of<MetallicRoughness>());
+  f.maps = section("maps", "images on a surface", {});
+  for (const auto& [word, slot] : words_of<MapSlot>)
+    f.maps.fields.push_back(field(word, FieldType::map, "", sentence_of(slot)));
+  f.map = section(
+      "map", "how an image lies on a surface",
+      std::vector{
+          required("file", FieldType::file, "The image, looked for beside the scene file."),
+          choice(
+              "encoding", {"srgb", "linear"}, "",
+              "What the file's whole numbers mean: `srgb` for colors, `linear` for data; by the map's kind "
+              "where not given. HDR and EXR are linear always."),
+          choice("wrap", names_of<Wrap>(), text_of(Wrap::repeat), "How it goes on beyond its edges."),
+          choice("filter", {"linear", "nearest"}, "linear",
+                 "Whether there is a passage from texel to texel."),
+          choice("channel", {"luminance", "r", "g", "b", "alpha"}, "luminance",
+                 "Which of its numbers, where the map is one number."),
+          with(field("uv_set", FieldType::integer, "0", "Which of the mesh's texture coordinates."), {0, 1},
+               ""),
+          field("scale", FieldType::uvs, "[1, 1]", "Factors on u and v, first of all.")} +
+          fields_of<MapSettings>() +
+          std::vector{field("offset", FieldType::uvs, "[0, 0]", "Added to u and v, last of all.")});
   f.material_name = required("name", FieldType::name, "What objects call it; each name once.");
   f.camera = section("camera", "where the picture is seen from",
                      std::vector{choice("projection", names_of<Projection>(), text_of(Camera{}.projection),
@@ -221,7 +284,13 @@ Format make_format() {
                   choice("ambient_attenuation", names_of<AmbientAttenuation>(), "",
                          "What the ambient term is divided by: nothing, or R, the distance travelled since "
                          "the eye. The model's own where not given.")} +
-          fields_of<Illumination>());
+          fields_of<Illumination>() +
+          std::vector{field(
+              "ambient_occlusion", FieldType::section, "",
+              "Ambient light reaches a point only from where nothing stands in its way. Not given: from "
+              "everywhere.")});
+  f.ambient_occlusion =
+      section("ambient_occlusion", "ambient light with soft shadows", fields_of<AmbientOcclusion>());
   Section whitted = section("whitted", "rays from the eye, mirrored and refracted on: Whitted's ray tracing",
                             fields_of<WhittedSettings>());
   whitted.source = "Whitted, An improved illumination model for shaded display, CACM 23(6), 1980";
@@ -270,8 +339,8 @@ Format make_format() {
        field("film", FieldType::section, "", "What is kept of a picture beside its colours."),
        field("illumination", FieldType::section, "", "The equation and its choices, for the whole scene."),
        field("integrator", FieldType::section, "", "How rays are followed."),
-       with(field("background", FieldType::color, text_of(Scene{}.background),
-                  "What rays see that hit nothing."),
+       with(field("background", FieldType::background, text_of(Scene{}.background),
+                  "What rays see that hit nothing: a color, or {file: NAME} for a picture all around."),
             at_least_zero, ""),
        field("lights", FieldType::sections, "", "The lights, in any number."),
        field("materials", FieldType::sections, "", "Materials that objects refer to by name."),
@@ -351,6 +420,10 @@ std::string type_name(FieldType type) {
       return "integer or mapping";
     case FieldType::material:
       return "name or mapping";
+    case FieldType::background:
+      return "color or mapping";
+    case FieldType::map:
+      return "file name or mapping";
     case FieldType::transform:
       return "step or list of steps";
     case FieldType::section:

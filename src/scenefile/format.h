@@ -35,6 +35,8 @@ enum class FieldType {
   attenuation,  // a choice or a mapping
   samples,      // a whole number or a mapping
   material,     // a name or a mapping
+  background,   // a color or a mapping
+  map,          // a file's name or a mapping
   transform,    // a step or a list of steps
   section,      // a mapping with fields of its own
   sections,     // a list of such mappings
@@ -62,6 +64,7 @@ struct Section {
 
 struct Format {
   Section top, camera, image, film, samples, adaptive, illumination, attenuation, integrator, material;
+  Section background, ambient_occlusion, maps, map, metallic_roughness;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.

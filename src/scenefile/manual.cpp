@@ -106,7 +106,7 @@ at once, with line and column. For completion and checks while you type, point y
 # yaml-language-server: $schema=lambent.schema.json
 ```
 
-Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [image](#image), [film](#film), [illumination](#illumination),
+Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [image](#image), [film](#film), [illumination](#illumination),
 [models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
 [transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
@@ -137,6 +137,56 @@ point, and R the distance the ray has travelled since the eye, over all bounces.
 affair; the factors 1/r and 1/R are the attenuations', and free to combine with any model. r and R count as at least
 `minimum_distance`. A light at infinity does not fade. A point in the shadow of a light gets neither diffuse nor specular
 light of it.
+
+)";
+
+constexpr const char* occlusion_text =
+    R"(With `ambient_occlusion: {}` the ambient term is multiplied by A, the share of the directions above the surface in which
+nothing stands: contacts and folds darken softly. What transmits hides nothing. The directions are spread evenly (Roberts' R2
+sequence, turned in each pixel by a hash of its place), more of them where N.L would be larger (Malley's method).
+
+)";
+
+constexpr const char* background_text =
+    R"(A colour, or an image all around the scene, by longitude and latitude (equirectangular): what rays see that meet nothing,
+eye rays and mirror rays alike. It lights nothing. Its middle lies along -z, u grows to the right as seen from inside, the top row is straight up.
+
+    background: {file: venice_sunset_1k.hdr, turn: 90}
+
+)";
+
+constexpr const char* materials_text =
+    R"(`opacity` less than 1 shows the rest of what lies behind, straight on, and lets as much light through. With `alpha: mask` there is no
+surface where the opacity is below `alpha_cutoff`, and all of it elsewhere: leaves, fences. Rays that pass such gaps, or a
+`one_sided` surface from inside, do not count for `max_depth`.
+
+)";
+
+constexpr const char* rough_text =
+    R"(A material as glTF and most modelling programs write it. It becomes the lecture's Ka, Kd, Ks and n at every point; the formulas, and where they
+come from, are in `src/illumination/metallic_roughness.h`:
+
+    F0   = (1 - metallic) d + metallic base_color,      d = ((ior - 1) / (ior + 1))^2 specular_color specular
+    K    = (1 - metallic) base_color (1 - d)
+    n    = 2 / alpha^2 - 2,      alpha = roughness^2,      w = alpha^2
+    Kd   = K (1 - transmission) + w F0
+    Ks   = (1 - w) F0 (n + 2) / 8
+    reflect  = F0 ((1 - 2 alpha)+)^2
+    Ka   = Kd + (1 - w) F0 - reflect
+    transmit = K transmission
+
+)";
+
+constexpr const char* maps_text =
+    R"(Each entry is the name of an image file (PNG, JPEG, HDR, EXR, TGA, BMP), or a mapping with `file` and more:
+
+    materials:
+      - {name: floor, diffuse: 1, maps: {diffuse: planks.png, bump: {file: planks_height.png, strength: 0.01}}}
+
+Colours are decoded from sRGB, data is taken as it is. (u, v) = (0, 0) is the image's lower left corner. Textures are looked up with the width of the ray: from
+several levels of detail, linearly between them, and with up to 16 taps where the surface lies at a slant. Meshes bring their texture
+coordinates; spheres have longitude and latitude about the y axis, infinite planes and discs two lengths in scene units (for a floor x and -z), cylinders and cones the
+way round and the height, boxes, rectangles and polygons those of the plane they lie in.
 
 )";
 
@@ -215,6 +265,7 @@ std::string scene_manual() {
       "need not be at a right "
       "angle to the view, only not along it.\n\n" +
       table(f.camera.fields);
+  text += "## Background\n\n" + std::string(background_text) + table(f.background.fields);
   text += "## Image\n\n" + table(f.image.fields);
   text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";
   text +=
@@ -234,6 +285,7 @@ std::string scene_manual() {
   text += "## Illumination\n\n" + std::string(illumination_text) + table(f.illumination.fields);
   text += "An `attenuation` of one's own is a mapping; at least one of its numbers is not 0:\n\n" +
           table(f.attenuation.fields);
+  text += std::string(occlusion_text) + table(f.ambient_occlusion.fields);
   text +=
       "## Models\n\nWhat one light contributes at a point, per channel. N is the surface's unit normal on "
       "the side of the eye, L "
@@ -254,6 +306,10 @@ std::string scene_manual() {
       "its place, without a "
       "name.\n\n" +
       table(named.fields);
+  text += std::string(materials_text) + "### `metallic_roughness`\n\n" + rough_text +
+          table(f.metallic_roughness.fields);
+  text += "### `maps`\n\n" + std::string(maps_text) + table(f.maps.fields) + "A map written out:\n\n" +
+          table(f.map.fields);
   text +=
       "## Objects\n\n`objects` is a list. An object is one shape, with a material and a transform if you "
       "like:\n\n```yaml\nobjects:\n  "

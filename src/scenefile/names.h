@@ -37,6 +37,33 @@ inline constexpr std::pair<const char*, View> words_of<View>[] = {
     {"uv", View::uv},           {"primitives", View::primitives},
     {"objects", View::objects}, {"materials", View::materials},
     {"rays", View::rays},       {"cosine", View::cosine}};
+template <>
+inline constexpr std::pair<const char*, Alpha> words_of<Alpha>[] = {{"blend", Alpha::blend},
+                                                                    {"mask", Alpha::mask}};
+template <>
+inline constexpr std::pair<const char*, Wrap> words_of<Wrap>[] = {
+    {"repeat", Wrap::repeat}, {"mirror", Wrap::mirror}, {"clamp", Wrap::clamp}};
+template <>
+inline constexpr std::pair<const char*, MapSlot> words_of<MapSlot>[] = {
+    {"ambient", MapSlot::ambient},
+    {"diffuse", MapSlot::diffuse},
+    {"specular", MapSlot::specular},
+    {"shininess", MapSlot::shininess},
+    {"reflect", MapSlot::reflect},
+    {"transmit", MapSlot::transmit},
+    {"emission", MapSlot::emission},
+    {"opacity", MapSlot::opacity},
+    {"normal", MapSlot::normal},
+    {"bump", MapSlot::bump},
+    {"occlusion", MapSlot::occlusion},
+    {"base_color", MapSlot::base_color},
+    {"metallic", MapSlot::metallic},
+    {"roughness", MapSlot::roughness},
+    {"specular_factor", MapSlot::specular_factor},
+    {"specular_color", MapSlot::specular_color},
+    {"transmission", MapSlot::transmission},
+    {"clearcoat", MapSlot::clearcoat},
+    {"clearcoat_roughness", MapSlot::clearcoat_roughness}};
 
 template <class E> std::vector<std::string> names_of() {
   std::vector<std::string> names;

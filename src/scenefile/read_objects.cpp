@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "import/paths.h"
+#include "scenefile/map_settings.h"
 #include "scenefile/nearest.h"
 #include "scenefile/shape_settings.h"
 #include "scenefile/shapes.h"
@@ -58,10 +60,137 @@ std::vector<Vec3<double>> points(Reader& reader, const Value& value, const char*
   return result;
 }
 
+void read_rough(Reader& reader, const Values& material, const Value& value, Material& out) {
+  const auto& fields = format().metallic_roughness.fields;
+  out.metallic_roughness.emplace();
+  if (value.node->kind != Node::Kind::nothing)
+    if (const auto values = reader.mapping(value, fields, "a metallic-roughness material"))
+      reader.table(*values, fields, *out.metallic_roughness);
+  for (const char* other : {"ambient", "diffuse", "specular", "shininess", "reflect", "transmit", "ior"})
+    if (const Value* one = material.find(other))
+      reader.error(*one->key, one->label + " stands beside 'metallic_roughness'", "which takes its place");
+}
+
+bool is_color(MapSlot slot) {
+  switch (slot) {
+    case MapSlot::ambient:
+    case MapSlot::diffuse:
+    case MapSlot::specular:
+    case MapSlot::reflect:
+    case MapSlot::transmit:
+    case MapSlot::emission:
+    case MapSlot::base_color:
+    case MapSlot::specular_color:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool is_rough(MapSlot slot) { return slot >= MapSlot::base_color; }
+
+/// The matrix of scale, turn and offset, in this order.
+bool read_matrix(Reader& reader, const Values& values, double degrees, std::array<double, 6>& matrix) {
+  std::array<double, 2> scale{1, 1}, offset{0, 0};
+  const Range range{-largest_number, largest_number};
+  if (const Value* value = values.find("scale"))
+    if (!reader.numbers(*value, range, scale)) return false;
+  if (const Value* value = values.find("offset"))
+    if (!reader.numbers(*value, range, offset)) return false;
+  const auto [sine, cosine] = sincos_degrees(degrees);
+  matrix = {cosine * scale[0], -sine * scale[1], offset[0], sine * scale[0], cosine * scale[1], offset[1]};
+  return true;
+}
+
+void read_map(Reader& reader, const Value& value, MapSlot slot, const Files& files,
+              std::vector<Texture>& textures, Material& out) {
+  MaterialMap map{slot, {}};
+  bool srgb = is_color(slot);
+  const Value* file = &value;
+  std::optional<Values> values;
+  if (value.node->kind == Node::Kind::mapping) {
+    const auto& fields = format().map.fields;
+    values = reader.mapping(value, fields, "a map");
+    if (!values) return;
+    MapSettings settings;
+    reader.table(*values, fields, settings);
+    map.map.gain = settings.gain, map.map.offset = settings.base, map.map.strength = settings.strength;
+    std::string word;
+    if (const Value* encoding = values->find("encoding"))
+      if (reader.one_of(*encoding, {"srgb", "linear"}, word)) srgb = word == "srgb";
+    if (const Value* wrap = values->find("wrap")) reader.choice(*wrap, map.map.wrap_u);
+    map.map.wrap_v = map.map.wrap_u;
+    if (const Value* filter = values->find("filter"))
+      if (reader.one_of(*filter, {"linear", "nearest"}, word)) map.map.nearest = word == "nearest";
+    const std::vector<std::string> channels{"luminance", "r", "g", "b", "alpha"};
+    if (const Value* channel = values->find("channel"))
+      if (reader.one_of(*channel, channels, word))
+        map.map.channel =
+            std::int8_t(std::find(channels.begin(), channels.end(), word) - channels.begin() - 1);
+    int uv_set = 0;
+    if (const Value* set = values->find("uv_set")) reader.integer(*set, {0, 1}, uv_set);
+    map.map.uv_set = std::uint8_t(uv_set);
+    if (!read_matrix(reader, *values, settings.rotate, map.map.matrix)) return;
+    file = values->find("file");
+    if (file == nullptr) return;
+  }
+  if (const auto texture = read_image_file(reader, *file, srgb, files, textures)) {
+    map.map.texture = *texture;
+    out.maps.push_back(map);
+  }
+}
+
+void read_maps(Reader& reader, const Value& value, const Files& files, std::vector<Texture>& textures,
+               Material& out) {
+  const auto values = reader.mapping(value, format().maps.fields, "the maps");
+  if (!values) return;
+  for (const Value& one : values->values) {
+    const MapSlot slot = *meaning_of<MapSlot>(one.key->text);
+    if (is_rough(slot) && !out.metallic_roughness) {
+      reader.error(*one.key, one.label + " is a map of 'metallic_roughness', which this material has not",
+                   "give it metallic_roughness: {}");
+      continue;
+    }
+    read_map(reader, one, slot, files, textures, out);
+  }
+}
+
 }  // namespace
 
+std::optional<std::string> Files::find(Reader& reader, const Value& value) const {
+  std::string name;
+  if (!reader.text(value, "a file's name", name)) return {};
+  const std::string path = model_key(folder, name);
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    const std::string reason = error ? error.message() : "No such file or directory";
+    reader.error(*value.node, "cannot open '" + path + "': " + reason, suggest_file(path));
+  } else if (std::filesystem::is_directory(status)) {
+    reader.error(*value.node, "cannot open '" + path + "': it is a folder");
+  } else if (!import.limits.allow_outside && !lies_below(import.root.empty() ? folder : import.root, path)) {
+    reader.error(*value.node, "'" + path + "' lies outside the scene's folder",
+                 "with --allow-outside a scene may read any file");
+  } else {
+    return path;
+  }
+  return {};
+}
+
+std::optional<std::uint32_t> read_image_file(Reader& reader, const Value& file, bool srgb, const Files& files,
+                                             std::vector<Texture>& textures) {
+  const auto path = files.find(reader, file);
+  if (!path) return {};
+  Texture texture;
+  texture.source = {*path, *path, nullptr, place_in(reader, *file.node), true};
+  texture.srgb = srgb;
+  textures.push_back(std::move(texture));
+  return std::uint32_t(textures.size() - 1);
+}
+
 bool read_material(Reader& reader, const Value& value, const std::vector<Field>& fields,
-                   const std::string& what, const Illumination& illumination, Material& out) {
+                   const std::string& what, const Illumination& illumination, const Files& files,
+                   std::vector<Texture>& textures, Material& out) {
   const auto values = reader.mapping(value, fields, what);
   if (!values) return false;
   const std::size_t before = reader.count();
@@ -73,6 +202,9 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
         if (word == model_infos[i].name) out.model = ModelId(i);
   }
   reader.table(*values, fields, out);
+  if (const Value* alpha = values->find("alpha")) reader.choice(*alpha, out.alpha);
+  if (const Value* rough = values->find("metallic_roughness")) read_rough(reader, *values, *rough, out);
+  if (const Value* maps = values->find("maps")) read_maps(reader, *maps, files, textures, out);
   // Two models may use one name for parameters of different ranges: the material's own model decides.
   const std::size_t chosen = std::size_t(int(out.model.value_or(illumination.model)));
   for (std::size_t i = 0; i < format().models.size(); ++i) {
@@ -91,14 +223,20 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
   return reader.count() == before && !values->unknown_keys;
 }
 
-ObjectReader::ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models)
-    : reader_(reader), scene_(scene), folder_(std::move(folder)), loaded_(std::move(models)) {
+ObjectReader::ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models,
+                           const ImportOptions& import)
+    : reader_(reader),
+      scene_(scene),
+      folder_(std::move(folder)),
+      import_(import),
+      loaded_(std::move(models)) {
+  if (import_.root.empty()) import_.root = folder_;
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     by_name_.emplace(scene.materials[i].name, std::uint32_t(i));
 }
 
 void ObjectReader::add_shape(std::string name, Primitives primitives) {
-  placed_shapes_.push_back({{}, std::uint32_t(scene_.shapes.size()), {}});
+  placed_shapes_.push_back({{}, std::uint32_t(scene_.shapes.size()), {}, {}});
   scene_.shapes.push_back({std::move(name), std::move(primitives), {}});
 }
 
@@ -115,7 +253,9 @@ std::optional<std::uint32_t> ObjectReader::material(const Value& value) {
     Material material;
     // Its name is the object's affair; a name of its own would be one that nothing can refer to.
     std::vector<Field> fields = format().material.fields;
-    if (!read_material(reader_, value, fields, "a material", scene_.illumination, material)) return {};
+    if (!read_material(reader_, value, fields, "a material", scene_.illumination, {folder_, import_},
+                       scene_.textures, material))
+      return {};
     material.name = fmt::format("material {}", ++inline_materials_);
     scene_.materials.push_back(std::move(material));
     return std::uint32_t(scene_.materials.size() - 1);
@@ -136,7 +276,7 @@ std::string model_key(const std::string& folder, const std::string& file) {
   return path.lexically_normal().string();
 }
 
-const ObjectReader::Placed* ObjectReader::model(const Value& file) {
+const ObjectReader::Placed* ObjectReader::model(const Value& file, bool is_scene) {
   std::string name;
   if (!reader_.text(file, "a file's name", name)) return nullptr;
   const std::string key = model_key(folder_, name);
@@ -148,22 +288,15 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
   if (const auto loaded = loaded_.find(key); loaded != loaded_.end()) {
     model = std::move(loaded->second);
     loaded_.erase(loaded);
-  } else if (!is_model_file(name)) {
+  } else if (!is_scene && !is_model_file(name)) {
     reader_.error(*file.node, "'" + name + "' is no model file that Lambent reads",
                   "known endings: " + model_file_endings());
     return nullptr;
   } else {
-    std::error_code error;
-    if (const auto status = std::filesystem::status(key, error); !std::filesystem::exists(status)) {
-      const std::string reason = error ? error.message() : "No such file or directory";
-      reader_.error(*file.node, "cannot open '" + key + "': " + reason, suggest_file(key));
-      return nullptr;
-    } else if (std::filesystem::is_directory(status)) {
-      reader_.error(*file.node, "cannot open '" + key + "': it is a folder");
-      return nullptr;
-    }
+    const auto path = Files{folder_, import_}.find(reader_, file);
+    if (!path) return nullptr;
     try {
-      model = import_model(key);
+      model = is_scene ? import_scene(*path, import_) : import_model(*path, import_);
     } catch (const InputError& wrong) {
       for (const Diagnostic& diagnostic : wrong.diagnostics()) reader_.error(*file.node, diagnostic);
       return nullptr;
@@ -187,7 +320,7 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file) {
   const auto first_shape = std::uint32_t(scene_.shapes.size());
   placed.objects = std::move(model->objects);
   if (placed.objects.empty())
-    for (std::uint32_t i = 0; i < model->shapes.size(); ++i) placed.objects.push_back({{}, i, {}});
+    for (std::uint32_t i = 0; i < model->shapes.size(); ++i) placed.objects.push_back({{}, i, {}, {}});
   for (ModelObject& object : placed.objects) object.shape += first_shape;
   std::move(model->shapes.begin(), model->shapes.end(), std::back_inserter(scene_.shapes));
   for (Diagnostic& warning : model->warnings) {
@@ -272,6 +405,15 @@ bool ObjectReader::inline_mesh(const Values& values, const Section& section) {
   }
   if (good) add_shape("mesh", std::move(mesh));
   return good;
+}
+
+bool ObjectReader::scene(const Values& values) {
+  const Value* file = values.find("file");
+  if (file == nullptr) return false;
+  file_ = model(*file, true);
+  if (file_ == nullptr) return false;
+  placed_shapes_ = file_->objects;
+  return true;
 }
 
 bool ObjectReader::mesh(const Values& values, const Section& section, Object&) {
@@ -372,6 +514,8 @@ bool ObjectReader::shape(const Section& section, const Value& value, Object& obj
       return false;
     }
     add_shape(section.name, polygon(corners));
+  } else if (section.name == "scene") {
+    return scene(*values);
   } else {
     return mesh(*values, section, object);
   }
@@ -422,13 +566,19 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
     if (!own) good = false;
   }
   if (!good || first == nullptr) return;
-  if (file_ != nullptr)
-    object.materials = own ? std::vector(file_->materials.size(), *own) : file_->materials;
-  else object.materials = {own ? *own : default_material()};
+  if (file_ == nullptr) object.materials = {own ? *own : default_material()};
   const Transform placing = object.world_from_object;
   const std::string name = object.name;
   for (const ModelObject& part : placed_shapes_) {
     object.shape = part.shape;
+    if (file_ != nullptr) {
+      object.materials = file_->materials;
+      if (!part.materials.empty()) {
+        object.materials.clear();
+        for (const std::uint32_t m : part.materials) object.materials.push_back(file_->materials[m]);
+      }
+      if (own) object.materials.assign(object.materials.size(), *own);
+    }
     object.world_from_object = placing * part.world_from_object;
     object.name = part.name.empty() ? name : name + "/" + part.name;
     scene_.objects.push_back(object);

@@ -15,7 +15,8 @@ namespace lambent {
 class ObjectReader {
  public:
   /// The scene's lights and materials have been read already.
-  ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models);
+  ObjectReader(Reader& reader, Scene& scene, std::string folder, LoadedModels models,
+               const ImportOptions& import);
 
   void object(const Value& value, const std::string& default_name);
 
@@ -29,8 +30,9 @@ class ObjectReader {
 
   bool shape(const Section& section, const Value& value, Object& object);
   bool mesh(const Values& values, const Section& section, Object& object);
+  bool scene(const Values& values);
   bool inline_mesh(const Values& values, const Section& section);
-  const Placed* model(const Value& file);
+  const Placed* model(const Value& file, bool is_scene = false);
   std::optional<std::uint32_t> material(const Value& value);
   std::uint32_t default_material();
   void add_shape(std::string name, Primitives primitives);
@@ -38,6 +40,7 @@ class ObjectReader {
   Reader& reader_;
   Scene& scene_;
   std::string folder_;
+  ImportOptions import_;
   LoadedModels loaded_;
   std::map<std::string, Placed> placed_;          // by model_key
   std::map<std::string, std::uint32_t> by_name_;  // the scene's own materials
@@ -50,8 +53,21 @@ class ObjectReader {
 /// The transform of `value`: one step or a list of steps. False if something was wrong.
 bool read_transform(Reader& reader, const Value& value, Transform& out);
 
-/// One entry of `materials`, or one written out in an object.
+/// Files that a scene names: where they are looked for, and what of them may be read.
+struct Files {
+  std::string folder;
+  ImportOptions import;
+  /// The path of a file that is there and may be read; otherwise what is wrong is said.
+  std::optional<std::string> find(Reader& reader, const Value& name) const;
+};
+
+/// An image that the scene file names: its index in the scene's textures.
+std::optional<std::uint32_t> read_image_file(Reader& reader, const Value& file, bool srgb, const Files& files,
+                                             std::vector<Texture>& textures);
+
+/// One entry of `materials`, or one written out in an object. Its maps' images are added to `textures`.
 bool read_material(Reader& reader, const Value& value, const std::vector<Field>& fields,
-                   const std::string& what, const Illumination& illumination, Material& out);
+                   const std::string& what, const Illumination& illumination, const Files& files,
+                   std::vector<Texture>& textures, Material& out);
 
 }  // namespace lambent

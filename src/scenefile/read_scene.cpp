@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
+#include "import/text_file.h"
 #include "scenefile/nearest.h"
 #include "scenefile/read_objects.h"
 #include "scenefile/reader.h"
 #include "scenefile/shape_settings.h"
+#include "scenefile/textures.h"
 
 namespace lambent {
 namespace {
@@ -146,6 +149,13 @@ void read_illumination(Reader& reader, const Value& value, Illumination& illumin
   const auto values = reader.mapping(value, fields, "the illumination");
   if (!values) return;
   reader.table(*values, fields, illumination);
+  if (const Value* occlusion = values->find("ambient_occlusion")) {
+    illumination.occlusion.emplace();
+    const auto& own = format().ambient_occlusion.fields;
+    if (occlusion->node->kind != Node::Kind::nothing)
+      if (const auto settings = reader.mapping(*occlusion, own, "the ambient occlusion"))
+        reader.table(*settings, own, *illumination.occlusion);
+  }
   if (const Value* model = values->find("model")) {
     std::string word;
     if (reader.one_of(*model, names_of(format().models), word))
@@ -280,7 +290,24 @@ void read_light(Reader& reader, const Value& value, std::size_t number, Scene& s
   scene.lights.push_back(std::move(light));
 }
 
-void read_materials(Reader& reader, const Value& value, Scene& scene) {
+void read_background(Reader& reader, const Value& value, const Files& files, Scene& scene) {
+  if (value.node->kind != Node::Kind::mapping) {
+    reader.color(value, limits(*find(format().top.fields, "background")), scene.background);
+    return;
+  }
+  const auto& fields = format().background.fields;
+  const auto values = reader.mapping(value, fields, "the background");
+  if (!values) return;
+  scene.background = grey(1.0);
+  if (const Value* color = values->find("color"))
+    reader.color(*color, limits(*find(fields, "color")), scene.background);
+  if (const Value* turn = values->find("turn"))
+    reader.number(*turn, limits(*find(fields, "turn")), scene.background_turn);
+  if (const Value* file = values->find("file"))
+    scene.background_image = read_image_file(reader, *file, true, files, scene.textures);
+}
+
+void read_materials(Reader& reader, const Value& value, const Files& files, Scene& scene) {
   const auto list = reader.list(value, "material");
   if (!list) return;
   std::vector<Field> fields{format().material_name};
@@ -290,7 +317,7 @@ void read_materials(Reader& reader, const Value& value, Scene& scene) {
     Material material;
     if (one.node->kind == Node::Kind::mapping) {
       // Its name first: even a material with errors is known by it, so that objects do not complain as well.
-      read_material(reader, one, fields, "a material", scene.illumination, material);
+      read_material(reader, one, fields, "a material", scene.illumination, files, scene.textures, material);
       const Node* given = value_of(*one.node, "name");
       if (given == nullptr) continue;
       Values values;
@@ -315,7 +342,9 @@ void read_version(Reader& reader, const Value& value) {
 
 }  // namespace
 
-Scene read_scene(const Document& document, const std::string& folder, LoadedModels models) {
+Scene read_scene(const Document& document, const std::string& folder, LoadedModels models,
+                 const ImportOptions& import) {
+  const Files files{folder, import};
   Reader reader(document);
   Scene scene;
   const Format& f = format();
@@ -334,8 +363,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
       if (const auto film = reader.mapping(*v, f.film.fields, "the film"))
         reader.table(*film, f.film.fields, scene.film);
     if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
-    if (const Value* v = top->find("background"))
-      reader.color(*v, limits(*find(f.top.fields, "background")), scene.background);
+    if (const Value* v = top->find("background")) read_background(reader, *v, files, scene);
     if (const Value* v = top->find("lights"))
       if (const auto lights = reader.list(*v, "light")) {
         std::map<std::string, int> taken;
@@ -343,10 +371,10 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
           read_light(reader, (*lights)[i], i + 1, scene, taken);
       }
     if (const Value* v = top->find("integrator")) read_integrator(reader, *v, scene);
-    if (const Value* v = top->find("materials")) read_materials(reader, *v, scene);
+    if (const Value* v = top->find("materials")) read_materials(reader, *v, files, scene);
     if (const Value* v = top->find("objects"))
       if (const auto objects = reader.list(*v, "object")) {
-        ObjectReader object_reader(reader, scene, folder, std::move(models));
+        ObjectReader object_reader(reader, scene, folder, std::move(models), import);
         for (std::size_t i = 0; i < objects->size(); ++i)
           object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
       }
@@ -355,6 +383,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
                    "layers are what the colours of 'whitted' are made of; leave out one of the two");
   }
   if (!reader.good()) throw InputError(reader.errors());
+  load_textures(scene, import.limits);
   std::vector<Diagnostic> faults = validate(scene);
   if (!faults.empty()) {
     for (Diagnostic& fault : faults) {
@@ -368,6 +397,42 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
     throw InputError(std::move(faults));
   }
   return scene;
+}
+
+Model import_scene(const std::string& path, const ImportOptions& import) {
+  // Scenes that show each other would never end.
+  static thread_local std::vector<std::string> open;
+  const std::string key = std::filesystem::weakly_canonical(path).string();
+  if (std::find(open.begin(), open.end(), key) != open.end()) {
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = "this scene file shows itself, by way of 'scene'";
+    throw InputError(diagnostic);
+  }
+  open.push_back(key);
+  struct Close {
+    ~Close() { open.pop_back(); }
+  } close;
+  Scene scene = read_scene(parse_yaml(read_file(path), path),
+                           std::filesystem::path(path).parent_path().string(), {}, import);
+  Model model;
+  model.textures = std::move(scene.textures);
+  model.shapes = std::move(scene.shapes);
+  model.warnings = std::move(scene.warnings);
+  for (Object& object : scene.objects)
+    model.objects.push_back(
+        {std::move(object.name), object.shape, object.world_from_object, std::move(object.materials)});
+  for (Material& material : scene.materials) {
+    material.model = model_of(scene, material);  // as the file means it
+    model.materials.push_back(std::move(material));
+  }
+  if (model.objects.empty()) {
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = "the scene has no objects";
+    throw InputError(diagnostic);
+  }
+  return model;
 }
 
 }  // namespace lambent

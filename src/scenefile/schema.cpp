@@ -98,6 +98,14 @@ Json value_of_type(const Field& field) {
       return {{"oneOf", {number_in(range, "integer"), reference("samples")}}};
     case FieldType::material:
       return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("material")}}};
+    case FieldType::background:
+      return {{"oneOf",
+               {array_of(number_in(range), 3, 3),
+                number_in(range),
+                {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}},
+                reference("background")}}};
+    case FieldType::map:
+      return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("map")}}};
     case FieldType::transform:
       return {{"oneOf", {reference("step"), array_of(reference("step"), 0)}}};
     case FieldType::section:
@@ -169,6 +177,13 @@ std::string scene_schema() {
        {"not", {{"anyOf", one_of_keys({"vertices", "triangles", "normals", "uvs"})}}}},
       {{"required", {"vertices", "triangles"}}, {"not", {{"required", {"file"}}}}}};
   definitions["object"] = std::move(object);
+  definitions["ambient_occlusion"] = object_of(f.ambient_occlusion);
+  definitions["background"] = object_of(f.background);
+  definitions["metallic_roughness"] = object_of(f.metallic_roughness);
+  definitions["maps"] = object_of(f.maps);
+  definitions["map"] = object_of(f.map);
+  for (const char* pair : {"scale", "offset"})
+    definitions["map"]["properties"][pair] = array_of(number_in({-largest_number, largest_number}), 2, 2);
   definitions["rotate"] = object_of(f.rotate);
   definitions["step"] = object_of(f.transform);
   definitions["step"]["oneOf"] = one_of_keys(names_of(f.transform.fields));
