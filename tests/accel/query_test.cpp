@@ -361,11 +361,11 @@ TEST(Queries, NoRayHitsAFlatPrimitiveThroughTheOrigin) {
     add_object(scene, std::vector<Plane>{{{0, 0, 0}, normal}});
     add_object(scene, std::vector<Disc>{{{0, 0, 0}, normal, 50}});
     const Vec3<double> a = normalize(cross(normal, Vec3<double>{0.3, 0.2, 0.9})), b = cross(normal, a);
-    add_object(scene, Mesh{{cast<float>(-1000.0 * a), cast<float>(1000.0 * a - 500.0 * b),
-                            cast<float>(500.0 * a + 1000.0 * b)},
-                           {},
-                           {},
-                           {{0, 1, 2}}});
+    Mesh mesh;
+    mesh.vertices = {cast<float>(-1000.0 * a), cast<float>(1000.0 * a - 500.0 * b),
+                     cast<float>(500.0 * a + 1000.0 * b)};
+    mesh.triangles = {{0, 1, 2}};
+    add_object(scene, mesh);
     const World world = build_world(scene);
     Random random(31);
     for (int geometry = 0; geometry < 3; ++geometry) {
