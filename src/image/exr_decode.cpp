@@ -95,24 +95,39 @@ void check_header(const Imf::Header& header, std::size_t channels, std::uint64_t
                                   std::to_string(tiles.ySize));
 }
 
-ReadImage read_part(Imf::MultiPartInputFile& file, std::size_t file_size, const std::string& path) {
-  const int part = first_flat_part(file, path);
+/// What `part` holds; never empty, and not beyond what its file can hold.
+PictureHead head_of(const Imf::MultiPartInputFile& file, int part, std::size_t file_size,
+                    const std::string& path) {
   const Imf::Header& header = file.header(part);
   const Imath::Box2i window = header.dataWindow();
   const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
   const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
+  PictureHead head;
+  head.channels = ordered_channels(header.channels(), path);
+  if (width <= 0 || height <= 0 || head.channels.empty())
+    throw picture_error(path, "the EXR holds no picture");
+  check_header(header, head.channels.size(), std::uint64_t(width), std::uint64_t(height), file_size, path);
+  head.width = int(width);
+  head.height = int(height);
+  return head;
+}
+
+ReadImage read_part(Imf::MultiPartInputFile& file, std::size_t file_size, const std::string& path) {
+  const int part = first_flat_part(file, path);
+  const Imf::Header& header = file.header(part);
+  const Imath::Box2i window = header.dataWindow();
+  const PictureHead head = head_of(file, part, file_size, path);
   ReadImage result;
   Image& image = result.image;
-  image.channels = ordered_channels(header.channels(), path);
-  const std::size_t channels = image.channels.size();
-  if (width <= 0 || height <= 0 || channels == 0) throw picture_error(path, "the EXR holds no picture");
-  check_header(header, channels, std::uint64_t(width), std::uint64_t(height), file_size, path);
-  image.width = int(width);
-  image.height = int(height);
+  image.channels = head.channels;
+  image.width = head.width;
+  image.height = head.height;
+  const std::size_t channels = image.channels.size(), width = std::size_t(head.width);
+  const std::int64_t height = head.height;
 
   Imf::InputPart input(file, part);
   // The room is reserved but grows with what has been read: a damaged file fails before it has cost much.
-  const std::size_t row_values = std::size_t(width) * channels;
+  const std::size_t row_values = width * channels;
   image.data.reserve(row_values * std::size_t(height));
   Imf::FrameBuffer pixels;
   for (std::size_t c = 0; c < channels; ++c)
@@ -136,16 +151,14 @@ std::string reason_of(const std::exception& error, const std::string& path) {
   return at == std::string::npos ? text : text.substr(at + name.size());
 }
 
-}  // namespace
-
-bool is_exr(std::string_view bytes) { return bytes.substr(0, 4) == "\x76\x2f\x31\x01"; }
-
-ReadImage decode_exr(std::string_view bytes, const std::string& path) {
+/// What `action` makes of the file; whatever OpenEXR has against it becomes an InputError.
+template <class Action>
+auto with_file(std::string_view bytes, const std::string& path, const Action& action) {
   try {
     Input input(bytes, path);
     // Threads: none. A broken table of chunks is not rebuilt: that searches the file for parts of a picture.
     Imf::MultiPartInputFile file(input, 0, false);
-    return read_part(file, bytes.size(), path);
+    return action(file);
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -153,6 +166,21 @@ ReadImage decode_exr(std::string_view bytes, const std::string& path) {
   } catch (const std::exception& error) {
     throw picture_error(path, "cannot read the EXR: " + reason_of(error, path));
   }
+}
+
+}  // namespace
+
+bool is_exr(std::string_view bytes) { return bytes.substr(0, 4) == "\x76\x2f\x31\x01"; }
+
+ReadImage decode_exr(std::string_view bytes, const std::string& path) {
+  return with_file(bytes, path,
+                   [&](Imf::MultiPartInputFile& file) { return read_part(file, bytes.size(), path); });
+}
+
+PictureHead exr_head(std::string_view bytes, const std::string& path) {
+  return with_file(bytes, path, [&](const Imf::MultiPartInputFile& file) {
+    return head_of(file, first_flat_part(file, path), bytes.size(), path);
+  });
 }
 
 }  // namespace lambent

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lambent/diagnostics.h"
 #include "lambent/image.h"
@@ -33,6 +34,13 @@ ReadImage decode_png(std::string_view bytes, const std::string& path);
 /// The first flat part, scan lines or tiles (their finest level), all channels as float; the data window is
 /// the picture. Channels are ordered layer by layer, in each R, G, B, A first.
 ReadImage decode_exr(std::string_view bytes, const std::string& path);
+
+/// What decode_exr would give, by the header alone. Throws likewise.
+struct PictureHead {
+  int width = 0, height = 0;
+  std::vector<std::string> channels;
+};
+PictureHead exr_head(std::string_view bytes, const std::string& path);
 
 bool is_png(std::string_view bytes);
 bool is_exr(std::string_view bytes);

@@ -21,8 +21,14 @@ struct Pixels {
 };
 
 /// Reads PNG, JPEG, Radiance HDR, OpenEXR, TGA or BMP; the bytes, not a file's ending, say which. `name`
-/// stands for the image in messages. Throws InputError where the image is damaged, of no known kind, or
-/// beyond the limits.
+/// stands for the image in messages. Throws InputError where the image is damaged or cut off, of no known
+/// kind, beyond the limits, or larger than its file can plausibly hold: decoded more than 64 MiB and more
+/// than 2000 times the file's size.
+///
+/// Colour profiles, gamma, exposure and orientation that a file may speak of are left aside. CMYK becomes
+/// R G B by the plain rule, R = (1 - C) (1 - K). Palettes become R G B, a transparent colour becomes alpha.
+/// An EXR is read from the first part that is flat, by its data window: R, G, B, or Y, and A; what is not a
+/// number there becomes 0, what is infinite +-65504, the largest half.
 Pixels read_pixels(std::string_view bytes, const std::string& name, const Limits& limits = {});
 
 /// Its size, without decoding it. Throws likewise.

@@ -1,7 +1,5 @@
 #include <png.h>
 
-#include <algorithm>
-#include <cstring>
 #include <new>
 
 #include "image/formats.h"
@@ -10,20 +8,6 @@
 
 namespace lambent {
 namespace {
-
-/// The bytes of the file that libpng has not asked for yet.
-struct Source {
-  const char* next;
-  std::size_t left;
-};
-
-void take(png_structp png, png_bytep data, png_size_t size) {
-  Source* source = static_cast<Source*>(png_get_io_ptr(png));
-  if (size > source->left) png_error(png, "the file ends too early");
-  std::memcpy(data, source->next, size);
-  source->next += size;
-  source->left -= size;
-}
 
 std::string utf8_from_latin1(const std::string& latin) {
   std::string text;
@@ -55,27 +39,12 @@ Metadata metadata_of(const PngSession& session) {
   return metadata;
 }
 
-/// Whether every chunk ends within the file. libpng believes the lengths that the chunks claim, and would set
-/// up a gigabyte for a text in a file of 57 bytes.
-bool chunks_fit(std::string_view bytes) {
-  constexpr std::size_t signature = 8, around = 12;  // length, name and checksum, 4 bytes each
-  for (std::size_t at = signature; at < bytes.size();) {
-    if (bytes.size() - at < around) return false;
-    std::size_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
-    if (length > bytes.size() - at - around) return false;
-    if (bytes.substr(at + 4, 4) == "IEND") return true;  // what follows is no part of the picture
-    at += around + length;
-  }
-  return false;
-}
-
 }  // namespace
 
 bool is_png(std::string_view bytes) { return bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n"; }
 
 ReadImage decode_png(std::string_view bytes, const std::string& path) {
-  if (!chunks_fit(bytes)) throw picture_error(path, "cannot read the PNG: the file ends too early");
+  if (!png_chunks_fit(bytes)) throw picture_error(path, "cannot read the PNG: the file ends too early");
   PngSession session(PngSession::Way::read);
   png_structp png = session.png;
   png_infop info = session.info;
@@ -83,17 +52,7 @@ ReadImage decode_png(std::string_view bytes, const std::string& path) {
     return picture_error(path, std::string("cannot read the PNG: ") + session.error.text);
   };
 
-  Source source{bytes.data(), bytes.size()};
-  // Unpacked, a text may be larger than the file.
-  constexpr std::size_t smallest_limit = std::size_t(1) << 24;
-  const std::size_t largest_chunk = std::max(bytes.size(), smallest_limit);
-  if (!session.run([&] {
-        png_set_read_fn(png, &source, take);
-        png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-        png_set_chunk_malloc_max(png, largest_chunk);
-        png_read_info(png, info);
-      }))
-    throw damaged();
+  if (!session.read_header(bytes)) throw damaged();
   const png_uint_32 width = png_get_image_width(png, info), height = png_get_image_height(png, info);
   // Deflate makes of one byte 1032 at most, and those are 8256 pixels where a pixel is one bit.
   check_size(width, height, png_get_channels(png, info), bytes.size(), 8256, path);

@@ -1,6 +1,8 @@
 #include "image/png_session.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 #include <new>
 
 namespace lambent {
@@ -13,6 +15,13 @@ namespace {
 
 // libpng's warnings are about chunks that it leaves out; the picture is whole.
 void ignore(png_structp, png_const_charp) {}
+
+void take(png_structp png, png_bytep data, png_size_t size) {
+  std::string_view& unread = *static_cast<std::string_view*>(png_get_io_ptr(png));
+  if (size > unread.size()) png_error(png, "the file ends too early");
+  std::memcpy(data, unread.data(), size);
+  unread.remove_prefix(size);
+}
 
 }  // namespace
 
@@ -31,6 +40,32 @@ PngSession::PngSession(Way way) : way(way) {
 PngSession::~PngSession() {
   if (way == Way::read) png_destroy_read_struct(&png, &info, nullptr);
   else png_destroy_write_struct(&png, &info);
+}
+
+bool PngSession::read_header(std::string_view bytes) {
+  unread = bytes;
+  // Unpacked, a text may be larger than the file.
+  constexpr std::size_t smallest_limit = std::size_t(1) << 24;
+  const std::size_t largest_chunk = std::max(bytes.size(), smallest_limit);
+  return run([&] {
+    png_set_read_fn(png, &unread, take);
+    png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+    png_set_chunk_malloc_max(png, largest_chunk);
+    png_read_info(png, info);
+  });
+}
+
+bool png_chunks_fit(std::string_view bytes) {
+  constexpr std::size_t signature = 8, around = 12;  // length, name and checksum, 4 bytes each
+  for (std::size_t at = signature; at < bytes.size();) {
+    if (bytes.size() - at < around) return false;
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+    if (length > bytes.size() - at - around) return false;
+    if (bytes.substr(at + 4, 4) == "IEND") return true;  // what follows is no part of the picture
+    at += around + length;
+  }
+  return false;
 }
 
 std::string png_keyword(const std::string& key) {

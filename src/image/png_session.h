@@ -5,6 +5,7 @@
 
 #include <csetjmp>
 #include <string>
+#include <string_view>
 
 namespace lambent {
 
@@ -28,11 +29,20 @@ struct PngSession {
     return true;
   }
 
+  /// Read what stands before the pixels, with limits on what chunks may cost: false as for run(). `bytes` has
+  /// to stay until the session ends, and its chunks must fit (png_chunks_fit).
+  bool read_header(std::string_view bytes);
+
   Way way;
   PngError error;
   png_structp png = nullptr;
   png_infop info = nullptr;
+  std::string_view unread;  ///< The bytes that libpng has not asked for yet.
 };
+
+/// Whether every chunk ends within the file. libpng believes the lengths that the chunks claim, and would set
+/// up a gigabyte for a text in a file of 57 bytes.
+bool png_chunks_fit(std::string_view bytes);
 
 /// A key as PNG wants its keywords: 1 to 79 printable Latin-1 characters, without spaces at the ends or two
 /// in a row. What is not Latin-1 becomes '?', what is too long is cut, an empty key becomes "Comment".
