@@ -15,6 +15,8 @@ struct Format {
 constexpr Format formats[] = {
     {".obj", import_obj},
     {".nff", import_nff},
+    {".ply", import_ply},
+    {".stl", import_stl},
 };
 
 const Format* format_of(const std::string& path) {

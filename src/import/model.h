@@ -47,16 +47,18 @@ struct ImportOptions {
   std::string root;
 };
 
-/// Read a model file; its ending (.obj, .nff) names the format. Throws InputError with the file's name and
+/// Read a model file; its ending (.obj, .nff, .ply, .stl) names the format. Throws InputError with the file's name and
 /// line.
 Model import_model(const std::string& path, const ImportOptions& options = {});
 
 Model import_obj(const std::string& path, const ImportOptions& options = {});
 Model import_nff(const std::string& path, const ImportOptions& options = {});
+Model import_ply(const std::string& path, const ImportOptions& options = {});
+Model import_stl(const std::string& path, const ImportOptions& options = {});
 
 /// Whether import_model knows the ending of `path`.
 bool is_model_file(const std::string& path);
-/// The endings it knows, for messages: ".obj, .nff".
+/// The endings it knows, for messages: ".obj, .nff, .ply, .stl".
 std::string model_file_endings();
 
 }  // namespace lambent
