@@ -89,7 +89,7 @@ struct Shorthands {
 };
 
 void add_input(CLI::App* command, std::string& input) {
-  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .nff)")
+  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .nff, .ply, .stl)")
       ->required()
       ->type_name("");
 }

@@ -25,7 +25,7 @@ struct Spoke {
 };
 
 std::vector<std::uint32_t> number_positions(const std::vector<Vec3<float>>& vertices, std::uint32_t& count) {
-  VertexTable table;
+  PositionTable table;
   std::vector<std::uint32_t> result;
   result.reserve(vertices.size());
   const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0

@@ -787,7 +787,7 @@ class PlyReader {
           {indices_[i], std::bit_cast<std::uint32_t>(uv.x), std::bit_cast<std::uint32_t>(uv.y), color});
     }
   }
-  std::uint32_t corner_of(const VertexTable::Key& key) {
+  std::uint32_t corner_of(const VertexKey& key) {
     if (corners_.size() == none - 1) fail("more corners of faces than can be numbered");
     return corners_.index_of(key);
   }
@@ -871,8 +871,8 @@ class PlyReader {
 
   /// From here on, the mesh has a vertex for each different corner.
   void take_corners() {
-    const std::vector<VertexTable::Key> keys = corners_.take_keys();
-    const std::vector<VertexTable::Key> colors = face_color_table_.take_keys();
+    const std::vector<VertexKey> keys = corners_.take_keys();
+    const std::vector<VertexKey> colors = face_color_table_.take_keys();
     const auto gather = [&](auto& list) {
       if (list.empty()) return;
       auto gathered = std::decay_t<decltype(list)>();
@@ -892,9 +892,9 @@ class PlyReader {
     }
     if (!face_colors_) return;
     for (const auto& key : keys) {
-      const VertexTable::Key white{std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(1.0f),
-                                   std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(1.0f)};
-      const VertexTable::Key& c = key[3] == none ? white : colors[key[3]];
+      const VertexKey white{std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(1.0f),
+                            std::bit_cast<std::uint32_t>(1.0f), std::bit_cast<std::uint32_t>(1.0f)};
+      const VertexKey& c = key[3] == none ? white : colors[key[3]];
       mesh_.colors.push_back({number(c[0]), number(c[1]), number(c[2]), number(c[3])});
     }
   }
@@ -968,8 +968,8 @@ class PlyReader {
   std::vector<std::uint32_t> texture_of_;  ///< Of each triangle, where there are several.
   bool has_normals_ = false, has_uvs_ = false, has_faces_ = false;
   bool split_ = false, face_uvs_ = false, face_colors_ = false;
-  VertexTable corners_;           ///< Keys: vertex, u and v of the face, colour of the face.
-  VertexTable face_color_table_;  ///< Keys: the bits of R, G, B, alpha.
+  VertexTable corners_;             ///< Keys: vertex, u and v of the face, colour of the face.
+  PositionTable face_color_table_;  ///< Keys: the bits of R, G, B, alpha.
   std::size_t without_place_ = 0, without_area_ = 0, unplaced_faces_ = 0, wrong_wedges_ = 0;
   std::array<float, 256> linear_of_code_ = make_table();
 

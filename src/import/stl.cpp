@@ -57,7 +57,7 @@ class Solid {
   template <class ColorOf> Mesh take_mesh(const ColorOf& color_of, bool colored) {
     Mesh mesh;
     mesh.triangles = std::move(triangles_);
-    const std::vector<VertexTable::Key> keys = vertices_.take_keys();
+    const std::vector<VertexKey> keys = vertices_.take_keys();
     mesh.vertices.reserve(keys.size());
     if (colored) mesh.colors.reserve(keys.size());
     for (const auto& [x, y, z, color] : keys) {
@@ -76,7 +76,7 @@ class Solid {
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
     return vertices_.index_of({bits(p.x), bits(p.y), bits(p.z), color});
   }
-  VertexTable vertices_;  ///< Keys: the bits of x, y, z; colour.
+  PositionTable vertices_;  ///< Keys: the bits of x, y, z; colour.
   std::vector<std::array<std::uint32_t, 3>> triangles_;
 };
 
