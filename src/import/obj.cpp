@@ -1,21 +1,29 @@
-// Wavefront OBJ: polygons with their materials. Colours and weights of vertices, free-form curves and
-// surfaces, points and lines are passed over, the latter three with a warning.
+// Wavefront OBJ: polygons with their materials. Free-form curves and surfaces, and points and lines beside
+// faces, are passed over with a warning; weights of vertices, which only curves use, without. A file of
+// points and lines alone is shown as balls and rods.
 //
 // All faces of a file become one mesh. Its vertices are the different (position, texture coordinate, normal)
 // triples of the faces' corners. A file without normals (vn) but with smoothing groups (s) gets normals: in
 // each group, the sum of the normals of the faces around a position, each as long as the face is large.
+//
+// Colours of vertices (v x y z r g b, no part of the specification) are taken as those who write them mean
+// them: sRGB-encoded, 0 to 1, or 0 to 255 where one is above 1 and all are whole.
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <set>
 #include <unordered_map>
 
 #include "import/model.h"
 #include "import/mtl.h"
+#include "import/paths.h"
 #include "import/text_file.h"
 #include "import/vertex_table.h"
+#include "lambent/image.h"
 #include "scene/triangulate.h"
 
 namespace lambent {
@@ -25,6 +33,8 @@ namespace {
 constexpr std::uint32_t none = ~0u;
 constexpr std::size_t most_errors = 20;
 constexpr std::size_t most_warnings_of_a_kind = 20;
+/// Of balls and rods, in diagonals of the box around all points: thin, and still some pixels wide.
+constexpr double rod_radius = 1.0 / 400;
 
 /// One corner of a face: indices from 0, or `none`.
 struct Corner {
@@ -44,13 +54,28 @@ struct Run {
   std::size_t triangles;
 };
 
+/// Of a vertex without one; no other is below -1.
+constexpr Vec3<float> no_color{-2, -2, -2};
+
+/// Part of a line, or a point where both ends are the same; positions from 0.
+struct Stroke {
+  std::uint32_t from, to, slot;
+};
+
+/// Whether a file that was named can be read.
+enum class Found { yes, no, outside };
+
 std::string plural(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& path) : pieces_(path) {
+  ObjReader(const std::string& path, const ImportOptions& options) : options_(options), pieces_(path) {
+    must_be_within(path, options.limits.file_bytes);
+    // What the libraries name counts from the model's folder, too.
+    if (options_.root.empty()) options_.root = std::filesystem::path(path).parent_path().string();
+    if (options_.root.empty()) options_.root = ".";
     used_.push_back({});
     slot_of_name_[""] = 0;
   }
@@ -63,16 +88,26 @@ class ObjReader {
       if (!end_ || !trim(file_.text).empty()) end_ = warning_at(file_, end_of(file_.text), {});
       any_text_ |= !trim(file_.text).empty();
     }
-    if (errors_.empty() && triangles_.empty()) no_faces();
+    points_alone();
+    const bool strokes_alone = triangles_.empty() && without_area_ == 0 && !strokes_.empty();
+    if (errors_.empty() && triangles_.empty() && !strokes_alone) no_faces();
     if (!errors_.empty()) throw InputError(std::move(errors_));
-    remark_what_was_skipped();
+    remark_what_was_skipped(strokes_alone);
     Model model;
     model.illumination = ModelId::mtl;
-    Shape shape;
-    shape.name = std::filesystem::path(file_.name).filename().string();
-    shape.material_of_primitive = make_materials(model.materials);
-    shape.primitives = make_mesh();
-    model.shapes.push_back(std::move(shape));
+    if (strokes_alone) {
+      make_balls_and_rods(model);
+    } else {
+      const std::vector<std::uint32_t> material_of_slot = make_materials(model);
+      Shape shape;
+      shape.name = name_of_shape();
+      if (model.materials.size() > 1)
+        for (const Run& run : runs_)
+          shape.material_of_primitive.insert(shape.material_of_primitive.end(), run.triangles,
+                                             material_of_slot[run.slot]);
+      shape.primitives = make_mesh();
+      model.shapes.push_back(std::move(shape));
+    }
     std::stable_sort(warnings_.begin(), warnings_.end(), [&](const Diagnostic& a, const Diagnostic& b) {
       // In the order of the file, then those of its libraries.
       const bool a_here = a.place.file == file_.name, b_here = b.place.file == file_.name;
@@ -90,7 +125,7 @@ class ObjReader {
     const std::string_view key = next_word(rest);
     if (key.empty() || key[0] == '#') return;
     if (key == "v") return vertex(line, rest);
-    if (key == "f") return face(line, rest);
+    if (key == "f" || key == "fo") return face(line, rest);
     if (key == "vn") return normal(line, rest);
     if (key == "vt") return texture_coordinate(line, rest);
     if (key == "usemtl") return use_material(key, trim(rest));
@@ -99,7 +134,7 @@ class ObjReader {
     if (key == "g" || key == "o") return;
     if (key == "p" || key == "l") {
       if (points_and_lines_++ == 0) first_point_or_line_ = warning_at(file_, key, {});
-      return;
+      return point_or_line(key == "l", rest);
     }
     if (unknown_.size() < most_warnings_of_a_kind && unknown_.insert(std::string(key)).second)
       warn(key, "statement " + in_quotes(key) + " is not supported; it is ignored wherever it stands");
@@ -107,7 +142,7 @@ class ObjReader {
 
   /// Reads up to `most` numbers into `result`; says what is wrong where fewer than `least` are there. A
   /// comment ends them.
-  int numbers(std::string_view line, std::string_view rest, const char* what, int least, int most,
+  int numbers(std::string_view line, std::string_view& rest, const char* what, int least, int most,
               double* result) {
     int count = 0;
     while (count < most) {
@@ -133,8 +168,29 @@ class ObjReader {
   // Whatever is wrong with it, a vertex is counted: else every face behind it would seem to be wrong as well.
   void vertex(std::string_view line, std::string_view rest) {
     double x[3] = {0, 0, 0};
-    numbers(line, rest, "a vertex", 3, 3, x);
+    const bool whole = numbers(line, rest, "a vertex", 3, 3, x) == 3;
     add(positions_, Vec3<double>{x[0], x[1], x[2]}, line);
+    if (whole && !rest.empty()) color_of_vertex(line, rest);
+  }
+  /// What stands behind x y z: nothing, w, r g b, or w r g b.
+  void color_of_vertex(std::string_view line, std::string_view rest) {
+    float x[4];
+    int count = 0;
+    for (std::string_view word = next_word(rest); count < 4 && !word.empty(); word = next_word(rest)) {
+      const auto value = parse_number(word);
+      if (!value) break;
+      x[count++] = float(std::clamp(*value, -1.0, 1e6));
+    }
+    if (count < 3) return;
+    const float* rgb = x + (count - 3);
+    colors_.resize(positions_.size(), no_color);
+    colors_.back() = {rgb[0], rgb[1], rgb[2]};
+    for (int i = 0; i < 3; ++i) {
+      if (rgb[i] >= 0 && rgb[i] <= 1) continue;
+      if (!odd_color_) odd_color_ = warning_at(file_, line, {});
+      bytes_ &= rgb[i] >= 0 && rgb[i] <= 255;
+    }
+    bytes_ &= rgb[0] == std::floor(rgb[0]) && rgb[1] == std::floor(rgb[1]) && rgb[2] == std::floor(rgb[2]);
   }
   void normal(std::string_view line, std::string_view rest) {
     double x[3] = {0, 0, 0};
@@ -154,6 +210,17 @@ class ObjReader {
       throw InputError(std::move(errors_));
     }
     list.push_back(value);
+  }
+
+  void point_or_line(bool line, std::string_view rest) {
+    Corner last{none, none, none};
+    for (std::string_view word = next_word(rest); !word.empty() && word[0] != '#'; word = next_word(rest)) {
+      Corner corner;
+      if (!read_corner(word, corner)) return;
+      if (!line) strokes_.push_back({corner.position, corner.position, slot_});
+      else if (last.position != none) strokes_.push_back({last.position, corner.position, slot_});
+      last = corner;
+    }
   }
 
   void smoothing_group(std::string_view line, std::string_view rest) {
@@ -189,19 +256,21 @@ class ObjReader {
     corner = {none, none, none};
     const std::size_t a = std::min(word.find('/'), word.size());
     const std::size_t b = a < word.size() ? std::min(word.find('/', a + 1), word.size()) : a;
-    if (!read_index(word, word.substr(0, a), "vertex", positions_.size(), corner.position)) return false;
-    if (b > a + 1 &&
-        !read_index(word, word.substr(a + 1, b - a - 1), "texture coordinate", uvs_.size(), corner.uv))
+    if (!read_index(word, word.substr(0, a), "vertex", positions_.size(), corner.position, nullptr))
+      return false;
+    if (b > a + 1 && !read_index(word, word.substr(a + 1, b - a - 1), "texture coordinate", uvs_.size(),
+                                 corner.uv, &without_uvs_))
       return false;
     if (b + 1 < word.size() &&
-        !read_index(word, word.substr(b + 1), "normal", normals_.size(), corner.normal))
+        !read_index(word, word.substr(b + 1), "normal", normals_.size(), corner.normal, &without_normals_))
       return false;
     return true;
   }
 
-  /// From 1 on, or from -1 back, as the file counts, to from 0 on.
+  /// From 1 on, or from -1 back, as the file counts, to from 0 on. Where nothing of the kind is defined yet,
+  /// and one can do without, the result is `none`, and the place is kept.
   bool read_index(std::string_view corner, std::string_view text, const char* thing, std::size_t defined,
-                  std::uint32_t& result) {
+                  std::uint32_t& result, std::optional<Diagnostic>* without) {
     const auto index = parse_integer(text);
     if (index && *index >= 1 && std::uint64_t(*index) <= defined) {
       result = std::uint32_t(*index - 1);
@@ -212,6 +281,11 @@ class ObjReader {
       return true;
     }
     const std::string_view where = text.empty() ? corner : text;
+    if (without && defined == 0 && index && *index >= 1) {
+      if (!*without) *without = warning_at(file_, where, {});
+      result = none;
+      return true;
+    }
     // An integer of any length: one that does not fit 64 bits is out of range, too.
     const std::string_view digits = text.substr(!text.empty() && (text[0] == '-' || text[0] == '+'));
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
@@ -243,6 +317,7 @@ class ObjReader {
       errors_.push_back(error_at(file_, line, "more than 2^32 - 1 vertices are more than can be numbered"));
       throw InputError(std::move(errors_));
     }
+    if (triangles_.size() + corners_.size() - 2 > options_.limits.primitives) too_many(line);
     if (smooth) {
       const Vec3<double> n = newell_normal(points_);
       for (const Corner& c : corners_) {
@@ -282,18 +357,33 @@ class ObjReader {
     any_library_ = true;
     if (rest.empty()) return warn(key, "mtllib names no file");
     if (!libraries_seen_.insert(std::string(rest)).second) return;
-    if (read_library(rest)) return;
-    std::vector<std::string_view> missing;
-    bool found = false;
-    std::vector<std::string_view> names = library_names(rest);
-    for (const std::string_view name : names) {
-      if (read_library(name)) found = true;
-      else missing.push_back(name);
+    switch (read_library(rest)) {
+      case Found::yes:
+        return;
+      case Found::outside:
+        return remark_outside(rest);
+      case Found::no:
+        break;
     }
-    if (!found) missing = {rest};
+    std::vector<std::string_view> missing;
+    bool any = false;
+    for (const std::string_view name : library_names(rest)) {
+      const Found found = read_library(name);
+      any |= found != Found::no;
+      if (found == Found::no) missing.push_back(name);
+      else if (found == Found::outside) remark_outside(name);
+    }
+    if (!any) missing = {rest};
     for (const std::string_view name : missing)
       if (missing_libraries_++ < most_warnings_of_a_kind)
         warn(name, "material library " + in_quotes(name) + " is not there; its materials will be grey");
+  }
+  void remark_outside(std::string_view name) {
+    if (missing_libraries_++ < most_warnings_of_a_kind)
+      warn(name,
+           "material library " + in_quotes(name) +
+               " lies outside of the model's folder and is not read; its materials will be grey",
+           "--allow-outside lets files name files that lie elsewhere");
   }
 
   /// The words of `rest`; a backslash keeps the blank behind it in a word.
@@ -310,37 +400,35 @@ class ObjReader {
     return names;
   }
 
-  /// False where there is no such file: as the name stands, with the blanks that backslashes keep, with
-  /// slashes for backslashes as Windows writes them, and last by the file's bare name beside the model, for
-  /// paths of the machine it was made on.
-  bool read_library(std::string_view name) {
-    namespace fs = std::filesystem;
-    std::string kept(name), slashes(name);
+  /// The name counts as it stands, else with the blanks that backslashes keep; paths.h says where it leads.
+  Found read_library(std::string_view name) {
+    NamedFile file = find_named_file(file_.name, name, options_);
+    std::string kept(name);
     for (std::size_t i = kept.find("\\ "); i != std::string::npos; i = kept.find("\\ ", i)) kept.erase(i, 1);
-    std::replace(slashes.begin(), slashes.end(), '\\', '/');
-    const fs::path folder = fs::path(file_.name).parent_path();
-    for (const fs::path& candidate :
-         {fs::path(std::string(name)), fs::path(kept), fs::path(slashes), fs::path(slashes).filename()}) {
-      std::error_code ignored;
-      const fs::path path = (folder / candidate).lexically_normal();
-      if (!fs::is_regular_file(path, ignored)) continue;
-      if (!paths_read_.insert(path.string()).second) return true;
-      try {
-        MaterialLibrary library = read_material_library(read_text_file(path.string()));
-        warnings_.insert(warnings_.end(), library.warnings.begin(), library.warnings.end());
+    if (file.path.empty() && kept != name) file = find_named_file(file_.name, kept, options_);
+    if (file.path.empty()) return file.outside ? Found::outside : Found::no;
+    if (!paths_read_.insert(file.path).second) return Found::yes;
+    try {
+      must_be_within(file.path, options_.limits.file_bytes);
+      MaterialLibrary library = read_material_library(read_text_file(file.path), options_);
+      warnings_.insert(warnings_.end(), library.warnings.begin(), library.warnings.end());
+      const auto first_texture = std::uint32_t(textures_.size());
+      std::move(library.textures.begin(), library.textures.end(), std::back_inserter(textures_));
+      for (Material& material : library.materials) {
+        for (MaterialMap& map : material.maps) map.map.texture += first_texture;
         // Of materials of one name, the library that is named first gives it.
-        for (Material& material : library.materials) defined_.try_emplace(material.name, std::move(material));
-      } catch (const InputError& error) {
-        for (const Diagnostic& diagnostic : error.diagnostics()) add_error(diagnostic);
+        defined_.try_emplace(material.name, std::move(material));
       }
-      return true;
+    } catch (const InputError& error) {
+      for (const Diagnostic& diagnostic : error.diagnostics()) add_error(diagnostic);
     }
-    return false;
+    return Found::yes;
   }
 
-  /// Fills `materials` with those that faces have, in the order in which the file names them, and says which
-  /// each triangle has; nothing where there is but one.
-  std::vector<std::uint32_t> make_materials(std::vector<Material>& materials) {
+  /// Gives the model the materials that are shown, in the order in which the file names them, and their
+  /// textures. Answers which material each of used_ has become.
+  std::vector<std::uint32_t> make_materials(Model& model) {
+    std::vector<Material>& materials = model.materials;
     std::vector<std::uint32_t> index_of_slot(used_.size(), none);
     std::size_t undefined = 0;
     for (std::size_t slot = 0; slot < used_.size(); ++slot) {
@@ -350,6 +438,8 @@ class ObjReader {
       const auto found = defined_.find(used.name);
       if (found != defined_.end()) {
         materials.push_back(std::move(found->second));
+        for (MaterialMap& map : materials.back().maps)
+          map.map.texture = kept(map.map.texture, model.textures);
         continue;
       }
       Material grey;
@@ -366,12 +456,16 @@ class ObjReader {
            {},
            0});
     name_the_nameless(materials);
-    if (materials.size() == 1) return {};
-    std::vector<std::uint32_t> material_of_triangle;
-    material_of_triangle.reserve(triangles_.size());
-    for (const Run& run : runs_)
-      material_of_triangle.insert(material_of_triangle.end(), run.triangles, index_of_slot[run.slot]);
-    return material_of_triangle;
+    return index_of_slot;
+  }
+
+  /// Where textures_[index] stands in `textures`, which has each image once for each use of it.
+  std::uint32_t kept(std::uint32_t index, std::vector<Texture>& textures) {
+    Texture& texture = textures_[index];
+    const auto [at, is_new] =
+        texture_kept_.try_emplace({texture.source.file, texture.srgb}, std::uint32_t(textures.size()));
+    if (is_new) textures.push_back(texture);
+    return at->second;
   }
 
   /// Where a material that is not defined was first named; warns of it.
@@ -397,6 +491,8 @@ class ObjReader {
 
   // ---- the mesh ----
 
+  std::string name_of_shape() const { return std::filesystem::path(file_.name).filename().string(); }
+
   Mesh make_mesh() {
     const bool smooth = normals_.empty() && smooth_points_.size() > 0;
     Mesh mesh;
@@ -407,6 +503,7 @@ class ObjReader {
     for (const auto& [position, uv, normal, group] : keys)
       mesh.vertices.push_back(cast<float>(positions_[position]));
     positions_ = {};
+    if (!colors_.empty()) make_colors(keys, mesh);
     if (has_uvs_) mesh.uvs.reserve(keys.size());
     if (has_normals_ || smooth) mesh.normals.reserve(keys.size());
     for (const auto& [position, uv, normal, group] : keys) {
@@ -415,6 +512,66 @@ class ObjReader {
       else if (smooth) mesh.normals.push_back(group == 0 ? Vec3<float>{} : smooth_normal(position, group));
     }
     return mesh;
+  }
+
+  void make_colors(const std::vector<VertexTable::Key>& keys, Mesh& mesh) {
+    const bool bytes = odd_color_ && bytes_;
+    if (odd_color_)
+      warnings_.push_back(worded(
+          *odd_color_, bytes ? "colours of vertices above 1: all are taken as whole numbers from 0 to 255"
+                             : "colours of vertices go from 0 to 1; what is beyond is cut off"));
+    mesh.colors.reserve(keys.size());
+    const auto linear = [&](float x) { return float(linear_from_srgb(bytes ? x / 255.0 : x)); };
+    for (const auto& [position, uv, normal, group] : keys) {
+      const Vec3<float> c = position < colors_.size() ? colors_[position] : no_color;
+      mesh.colors.push_back(c == no_color ? std::array<float, 4>{1, 1, 1, 1}
+                                          : std::array<float, 4>{linear(c.x), linear(c.y), linear(c.z), 1});
+    }
+    colors_ = {};
+  }
+
+  /// A file that has nothing but vertices is a cloud of points.
+  void points_alone() {
+    if (!triangles_.empty() || !strokes_.empty() || without_area_ > 0 || !unknown_.empty()) return;
+    if (!errors_.empty() || points_and_lines_ > 0) return;
+    for (std::uint32_t i = 0; i < positions_.size(); ++i) strokes_.push_back({i, i, 0});
+    if (!strokes_.empty()) first_point_or_line_ = *end_;
+  }
+
+  /// A ball at each point and at each end of a line, a rod along it.
+  void make_balls_and_rods(Model& model) {
+    Bounds box;
+    for (const Stroke& s : strokes_) {
+      used_[s.slot].shown = true;
+      box.add(positions_[s.from]);
+      box.add(positions_[s.to]);
+    }
+    if (strokes_.size() > options_.limits.primitives) too_many({});
+    double radius = rod_radius * length(box.upper - box.lower);
+    if (!(radius > 0)) radius = std::max(1e-3 * max_abs(box.lower), 1e-3);
+    const std::vector<std::uint32_t> material_of_slot = make_materials(model);
+    std::vector<Sphere> balls;
+    std::vector<Cone> rods;
+    Shape ball_shape, rod_shape;
+    ball_shape.name = rod_shape.name = name_of_shape();
+    std::vector<bool> has_ball(positions_.size());
+    for (const Stroke& s : strokes_) {
+      for (const std::uint32_t end : {s.from, s.to}) {
+        if (has_ball[end]) continue;
+        has_ball[end] = true;
+        balls.push_back({positions_[end], radius});
+        ball_shape.material_of_primitive.push_back(material_of_slot[s.slot]);
+      }
+      if (positions_[s.from] == positions_[s.to]) continue;
+      rods.push_back({positions_[s.from], positions_[s.to], radius, radius});
+      rod_shape.material_of_primitive.push_back(material_of_slot[s.slot]);
+    }
+    if (model.materials.size() == 1) ball_shape.material_of_primitive = rod_shape.material_of_primitive = {};
+    const bool any_rods = !rods.empty();
+    ball_shape.primitives = std::move(balls);
+    rod_shape.primitives = std::move(rods);
+    model.shapes.push_back(std::move(ball_shape));
+    if (any_rods) model.shapes.push_back(std::move(rod_shape));
   }
 
   Vec3<float> smooth_normal(std::uint32_t position, std::uint32_t group) {
@@ -438,11 +595,24 @@ class ObjReader {
                        " of points and lines, which have no surface");
   }
 
-  void remark_what_was_skipped() {
-    if (points_and_lines_ > 0)
+  void remark_what_was_skipped(bool strokes_alone) {
+    if (strokes_alone)
+      warnings_.push_back(
+          worded(first_point_or_line_, points_and_lines_ == 0
+                                           ? "the file has vertices alone; they are shown as balls"
+                                           : "the file has points and lines alone; they are shown as balls "
+                                             "and rods"));
+    else if (points_and_lines_ > 0)
       warnings_.push_back(
           worded(first_point_or_line_, plural(points_and_lines_, "statement", "statements") +
                                            " of points and lines skipped: they have no surface"));
+    if (without_uvs_)
+      warnings_.push_back(worded(*without_uvs_,
+                                 "faces from here on name texture coordinates before any is "
+                                 "defined; they are left out"));
+    if (without_normals_)
+      warnings_.push_back(worded(*without_normals_,
+                                 "faces from here on name normals before any is defined; they are left out"));
     if (without_area_ > 0)
       warnings_.push_back(
           worded(first_without_area_, plural(without_area_, "triangle", "triangles") +
@@ -457,6 +627,12 @@ class ObjReader {
     place.hint = std::move(hint);
     return place;
   }
+  [[noreturn]] void too_many(std::string_view line) {
+    errors_.push_back(error_at(
+        file_, line.empty() ? end_of(file_.text) : line,
+        "more than " + plural(options_.limits.primitives, "primitive", "primitives") + " may not be read"));
+    throw InputError(std::move(errors_));
+  }
   void warn(std::string_view word, std::string message, std::string hint = {}) {
     warnings_.push_back(warning_at(file_, word, std::move(message), std::move(hint)));
   }
@@ -468,6 +644,7 @@ class ObjReader {
     if (errors_.size() >= most_errors) throw InputError(std::move(errors_));
   }
 
+  ImportOptions options_;
   TextPieces pieces_;
   TextFile file_;                  ///< The piece at hand; views into it do not outlive it.
   std::optional<Diagnostic> end_;  ///< Where the text ends, as long as there is no triangle; without words.
@@ -477,6 +654,9 @@ class ObjReader {
   std::vector<Vec3<double>> positions_;
   std::vector<Vec2<float>> uvs_;
   std::vector<Vec3<float>> normals_;
+  std::vector<Vec3<float>> colors_;      ///< Of positions, as they are written; as far as they have one.
+  std::optional<Diagnostic> odd_color_;  ///< The first that is not from 0 to 1; without words.
+  bool bytes_ = true;                    ///< All are whole numbers from 0 to 255.
 
   // The face at hand; kept for their memory.
   std::vector<Corner> corners_;
@@ -495,10 +675,15 @@ class ObjReader {
   std::unordered_map<std::string, std::uint32_t> slot_of_name_;
   std::uint32_t slot_ = 0;
   std::unordered_map<std::string, Material> defined_;
+  std::vector<Texture> textures_;  ///< Of the libraries; the maps in defined_ index them.
+  std::map<std::pair<std::string, bool>, std::uint32_t> texture_kept_;
   std::set<std::string> libraries_seen_, paths_read_;
   std::size_t missing_libraries_ = 0;
   bool any_library_ = false;
 
+  std::vector<Stroke> strokes_;
+  std::optional<Diagnostic> without_uvs_,
+      without_normals_;  ///< Where faces first name what there is none of.
   std::set<std::string> unknown_;
   std::size_t points_and_lines_ = 0, without_area_ = 0;
   Diagnostic first_point_or_line_, first_without_area_;  ///< Without words.
@@ -506,6 +691,8 @@ class ObjReader {
 
 }  // namespace
 
-Model import_obj(const std::string& path, const ImportOptions&) { return ObjReader(path).read(); }
+Model import_obj(const std::string& path, const ImportOptions& options) {
+  return ObjReader(path, options).read();
+}
 
 }  // namespace lambent

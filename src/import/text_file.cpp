@@ -253,6 +253,17 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
+void must_be_within(const std::string& path, std::uint64_t most) {
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (ignored || size <= most) return;
+  Diagnostic diagnostic;
+  diagnostic.place.file = path;
+  diagnostic.message =
+      "the file has " + std::to_string(size) + " bytes; " + std::to_string(most) + " may be read";
+  throw InputError(std::move(diagnostic));
+}
+
 TextFile text_file(std::string name, std::string bytes) {
   TextFile file{std::move(name), {}};
   if (is_utf16(bytes)) {

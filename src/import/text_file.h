@@ -30,6 +30,9 @@ namespace lambent {
 /// The whole file. Throws InputError ("cannot open ...: No such file or directory").
 std::string read_file(const std::string& path);
 
+/// Throws InputError where the file is larger than `most` bytes; says nothing of one that is not there.
+void must_be_within(const std::string& path, std::uint64_t most);
+
 /// A file's text, or a piece of it, as valid UTF-8 without a byte order mark.
 struct TextFile {
   std::string name;  ///< As it was given; it stands in messages.

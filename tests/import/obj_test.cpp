@@ -67,7 +67,7 @@ TEST(Obj, PlacesAreRightFarIntoALargeFile) {
   EXPECT_EQ(errors_of(square + filler(10000) + "f 1 2 3\n" + filler(10000) + "f 1 2 9\n"),
             (Strings{"model.obj:20006:7: error: face refers to vertex 9, but only 4 are defined so far\n"
                      "    f 1 2 9\n          ^"}));
-  EXPECT_EQ(errors_of(square + filler(10000)).at(0).substr(0, 17), "model.obj:10004:8");
+  EXPECT_EQ(errors_of(square + "p\n" + filler(10000)).at(0).substr(0, 17), "model.obj:10005:8");
 }
 
 TEST(Obj, WarningsRememberWhatLiesFarBack) {
@@ -165,10 +165,38 @@ TEST(Obj, APolygonIsCutIntoTriangles) {
   EXPECT_EQ(area, 3);
 }
 
-TEST(Obj, WeightsAndColoursOfVerticesArePassedOver) {
-  const Model model = obj("v 0 0 0 0.5\nv 1 0 0 0.1 0.2 0.3\nv 0 1 0 1 1 1 1\nf 1 2 3\n");
-  EXPECT_EQ(mesh_of(model).vertices[1], (Vec3<float>{1, 0, 0}));
+TEST(Obj, ColoursOfVerticesAreSrgbEncoded) {
+  const Model model = obj("v 0 0 0 0.5\nv 1 0 0 0.5 1 0\nv 0 1 0 1 1 1 0.5\nv 1 1 0 red\nf 1 2 3\nf 2 4 3\n");
+  const Mesh& mesh = mesh_of(model);
+  EXPECT_EQ(mesh.vertices[1], (Vec3<float>{1, 0, 0}));
+  ASSERT_EQ(mesh.colors.size(), 4u);
+  const float half = 0.21404114f;                                 // ((0.5 + 0.055) / 1.055)^2.4
+  EXPECT_EQ(mesh.colors[0], (std::array<float, 4>{1, 1, 1, 1}));  // a weight is no colour
+  EXPECT_NEAR(mesh.colors[1][0], half, 1e-7);
+  EXPECT_EQ(mesh.colors[1][1], 1);
+  EXPECT_EQ(mesh.colors[1][2], 0);
+  EXPECT_EQ(mesh.colors[1][3], 1);
+  EXPECT_NEAR(mesh.colors[2][2], half, 1e-7);  // behind a weight
+  EXPECT_EQ(mesh.colors[3], (std::array<float, 4>{1, 1, 1, 1}));
   EXPECT_EQ(warnings_of(model), Strings{});
+  EXPECT_TRUE(mesh_of(obj(square + "f 1 2 3\n")).colors.empty());
+}
+
+TEST(Obj, ColoursOfVerticesBeyondOne) {
+  const Model bytes = obj("v 0 0 0 255 0 51\nv 1 0 0\nv 0 1 0 1 1 1\nf 1 2 3\n");
+  EXPECT_EQ(mesh_of(bytes).colors.at(0)[0], 1);
+  EXPECT_NEAR(mesh_of(bytes).colors.at(0)[2], 0.03310477, 1e-7);  // 0.2
+  EXPECT_EQ(mesh_of(bytes).colors.at(1), (std::array<float, 4>{1, 1, 1, 1}));
+  EXPECT_LT(mesh_of(bytes).colors.at(2)[0], 0.001);
+  EXPECT_EQ(
+      warnings_of(bytes),
+      (Strings{"model.obj:1:1: warning: colours of vertices above 1: all are taken as whole numbers from "
+               "0 to 255\n    v 0 0 0 255 0 51\n    ^"}));
+  const Model large = obj("v 0 0 0 1 1 1\nv 1 0 0 1.5 -0.5 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh_of(large).colors.at(1), (std::array<float, 4>{1, 0, 0, 1}));
+  EXPECT_EQ(warnings_of(large),
+            (Strings{"model.obj:2:1: warning: colours of vertices go from 0 to 1; what is beyond is cut off\n"
+                     "    v 1 0 0 1.5 -0.5 0\n    ^"}));
 }
 
 TEST(Obj, CommentsBlankLinesAndJoinedLines) {
@@ -310,6 +338,58 @@ TEST(Obj, NamesOfLibraries) {
   EXPECT_EQ(first("mtllib C:\\made\\there\\a.mtl"), std::pair(true, false));  // beside the model
 }
 
+TEST(Obj, LibrariesOutsideAreNotRead) {
+  const test::TemporaryDirectory folder;
+  std::filesystem::create_directories(folder.file("model/deep"));
+  test::write_text(folder.file("red.mtl"), "newmtl red\nKd 1 0 0\nmap_Kd wood.png\n");
+  test::write_text(folder.file("wood.png"), "any bytes");
+  test::write_text(folder.file("model/m.obj"), "mtllib ../red.mtl\n" + square + "usemtl red\nf 1 2 3\n");
+  const Model safe = import_obj(folder.file("model/m.obj"));
+  EXPECT_EQ(safe.materials.at(0).diffuse, (Rgb{{0.8, 0.8, 0.8}}));
+  EXPECT_EQ(warnings_of(safe).at(0),
+            "m.obj:1:8: warning: material library '../red.mtl' lies outside of the model's folder and is not "
+            "read; its materials will be grey\n    mtllib ../red.mtl\n           ^\n"
+            "    hint: --allow-outside lets files name files that lie elsewhere");
+  ImportOptions options;
+  options.limits.allow_outside = true;
+  EXPECT_EQ(import_obj(folder.file("model/m.obj"), options).textures.size(), 1u);
+  options.limits.allow_outside = false;
+  options.root = folder.path();
+  EXPECT_EQ(import_obj(folder.file("model/m.obj"), options).textures.size(), 1u);
+  // A library below may name an image above it, within the model's folder.
+  test::write_text(folder.file("model/wood.png"), "any bytes");
+  test::write_text(folder.file("model/deep/red.mtl"), "newmtl red\nmap_Kd ../wood.png\n");
+  test::write_text(folder.file("model/n.obj"), "mtllib deep/red.mtl\n" + square + "usemtl red\nf 1 2 3\n");
+  EXPECT_EQ(import_obj(folder.file("model/n.obj")).textures.size(), 1u);
+}
+
+TEST(Obj, TexturesOfTheMaterialsThatAreShown) {
+  const Model model =
+      obj("mtllib a.mtl\nmtllib b.mtl\n" + square + "usemtl b\nf 1 2 3\nusemtl a\nf 1 3 4\n",
+          {{"a.mtl",
+            "newmtl none\nmap_Kd not shown.png\nnewmtl a\nmap_Kd wood.png\nmap_Ks wood.png\nbump wood.png\n"},
+           {"b.mtl", "newmtl b\nmap_Kd wood.png\nmap_d leaf.png\n"},
+           {"wood.png", "w"},
+           {"leaf.png", "l"},
+           {"not shown.png", "n"}});
+  ASSERT_EQ(model.textures.size(), 3u);  // wood as colour, leaf, wood as heights
+  EXPECT_TRUE(model.textures[0].srgb);
+  EXPECT_FALSE(model.textures[1].srgb);
+  EXPECT_FALSE(model.textures[2].srgb);
+  EXPECT_EQ(std::filesystem::path(model.textures[2].source.file).filename(), "wood.png");
+  EXPECT_EQ(model.textures[0].source.place.line, 2);
+  const auto texture = [&](int material, MapSlot slot) {
+    for (const MaterialMap& map : model.materials.at(std::size_t(material)).maps)
+      if (map.slot == slot) return int(map.map.texture);
+    return -1;
+  };
+  EXPECT_EQ(texture(0, MapSlot::diffuse), 0);
+  EXPECT_EQ(texture(0, MapSlot::opacity), 1);
+  EXPECT_EQ(texture(1, MapSlot::diffuse), 0);
+  EXPECT_EQ(texture(1, MapSlot::specular), 0);
+  EXPECT_EQ(texture(1, MapSlot::bump), 2);
+}
+
 TEST(Obj, TheFirstLibraryWithAMaterialGivesIt) {
   const Model model = obj("mtllib a.mtl b.mtl\n" + square + "usemtl m\nf 1 2 3\n",
                           {{"a.mtl", "newmtl m\nKd 1 0 0\n"}, {"b.mtl", "newmtl m\nKd 0 1 0\n"}});
@@ -371,10 +451,12 @@ TEST(Obj, IndicesOutOfRange) {
             (Strings{"model.obj:5:7: error: face refers to vertex -5, but only 4 are defined so far\n"
                      "    f 1 2 -5\n"
                      "          ^"}));
-  EXPECT_EQ(errors_of(square + "f 1/1 2/1 3/1\n"),
-            (Strings{"model.obj:5:5: error: face refers to texture coordinate 1, but none is defined so far\n"
-                     "    f 1/1 2/1 3/1\n"
-                     "        ^"}));
+  EXPECT_EQ(
+      errors_of("vt 0 0\n" + square + "f 1/1 2/1 3/2\n"),
+      (Strings{"model.obj:6:13: error: face refers to texture coordinate 2, but only 1 is defined so far\n"
+               "    f 1/1 2/1 3/2\n"
+               "                ^"}));
+  EXPECT_EQ(errors_of(square + "f 1/-1 2/-1 3/-1\n").size(), 1u);
   EXPECT_EQ(errors_of(square + "vn 0 0 1\nf 1//1 2//2 3//1\n"),
             (Strings{"model.obj:6:11: error: face refers to normal 2, but only 1 is defined so far\n"
                      "    f 1//1 2//2 3//1\n"
@@ -382,6 +464,18 @@ TEST(Obj, IndicesOutOfRange) {
   EXPECT_EQ(
       errors_of(square + "f 1 2 99999999999999999999\n").at(0).substr(0, 95),
       "model.obj:5:7: error: face refers to vertex 99999999999999999999, but only 4 are defined so far");
+}
+
+TEST(Obj, NormalsAndTextureCoordinatesThatAreNowhereAreLeftOut) {
+  const Model model = obj(square + "f 1/1/5 2/2/6 3/3/7\nf 1/1/5 3/3/7 4/4/8\n");
+  EXPECT_EQ(mesh_of(model).vertices.size(), 4u);
+  EXPECT_TRUE(mesh_of(model).uvs.empty() && mesh_of(model).normals.empty());
+  EXPECT_EQ(
+      warnings_of(model),
+      (Strings{"model.obj:5:5: warning: faces from here on name texture coordinates before any is defined; "
+               "they are left out\n    f 1/1/5 2/2/6 3/3/7\n        ^",
+               "model.obj:5:7: warning: faces from here on name normals before any is defined; they are "
+               "left out\n    f 1/1/5 2/2/6 3/3/7\n          ^"}));
 }
 
 TEST(Obj, CornersThatAreNone) {
@@ -441,14 +535,75 @@ TEST(Obj, ErrorsAreCollectedUpToTwenty) {
 
 TEST(Obj, WithoutFacesThereIsNoModel) {
   EXPECT_EQ(errors_of(""), (Strings{"model.obj:1:1: error: the file is empty"}));
-  EXPECT_EQ(errors_of(square + "l 1 2\n"), (Strings{"model.obj:5:6: error: the file has no faces: it holds 4 "
-                                                    "vertices and 1 statement of points and lines, which "
-                                                    "have no surface\n"
-                                                    "    l 1 2\n"
-                                                    "         ^"}));
+  EXPECT_EQ(errors_of("vn 0 0 1\np\n"), (Strings{"model.obj:2:2: error: the file has no faces: it holds 0 "
+                                                 "vertices and 1 statement of points and lines, which "
+                                                 "have no surface\n"
+                                                 "    p\n"
+                                                 "     ^"}));
+  EXPECT_EQ(errors_of(square + "curv 0 1 1 2\n").size(), 1u);  // control points are no points
   EXPECT_EQ(errors_of(square + "f 1 1 2\n"), (Strings{"model.obj:5:1: error: no face has an area\n"
                                                       "    f 1 1 2\n"
                                                       "    ^"}));
+}
+
+TEST(Obj, PointsAndLinesAloneAreBallsAndRods) {
+  const Model model =
+      obj("mtllib a.mtl\nv 0 0 0\nv 3 0 0\nv 3 4 0\nv 9 9 9\nusemtl a\nl 1 2 3 3\nusemtl b\np -3 -2\n",
+          {{"a.mtl", "newmtl a\nnewmtl b\nKd 1 0 0\n"}});
+  ASSERT_EQ(model.shapes.size(), 2u);
+  const auto& balls = std::get<std::vector<Sphere>>(model.shapes[0].primitives);
+  const auto& rods = std::get<std::vector<Cone>>(model.shapes[1].primitives);
+  ASSERT_EQ(balls.size(), 3u);
+  ASSERT_EQ(rods.size(), 2u);
+  EXPECT_EQ(balls[2].center, (Vec3<double>{3, 4, 0}));
+  EXPECT_EQ(rods[1].from, (Vec3<double>{3, 0, 0}));
+  EXPECT_EQ(rods[1].to, (Vec3<double>{3, 4, 0}));
+  for (const Sphere& ball : balls) EXPECT_DOUBLE_EQ(ball.radius, 5.0 / 400);  // the diagonal is 5
+  for (const Cone& rod : rods)
+    EXPECT_TRUE(rod.radius_from == balls[0].radius && rod.radius_to == rod.radius_from);
+  EXPECT_EQ(model.materials.size(), 2u);
+  EXPECT_EQ(model.shapes[1].material_of_primitive, (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(
+      warnings_of(model),
+      (Strings{"model.obj:7:1: warning: the file has points and lines alone; they are shown as balls and "
+               "rods\n    l 1 2 3 3\n    ^"}));
+  EXPECT_EQ(errors_of(square + "l 1 9\n").size(), 1u);
+}
+
+TEST(Obj, VerticesAloneAreBalls) {
+  const Model model = obj("v 0 0 0\nvn 0 0 1\nv 1 0 0\n");
+  ASSERT_EQ(model.shapes.size(), 1u);
+  EXPECT_EQ(std::get<std::vector<Sphere>>(model.shapes[0].primitives).size(), 2u);
+  EXPECT_EQ(warnings_of(model).at(0).substr(0, 72),
+            "model.obj:3:8: warning: the file has vertices alone; they are shown as b");
+  const Model one = obj("v 5 0 0\n");
+  EXPECT_GT(std::get<std::vector<Sphere>>(one.shapes[0].primitives).at(0).radius, 0);
+}
+
+TEST(Obj, LimitsHold) {
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("model.obj"), "mtllib m.mtl\n" + square + "f 1 2 3 4\n");
+  test::write_text(folder.file("m.mtl"), std::string(200, '#'));
+  const auto error_with = [&](const Limits& limits) {
+    ImportOptions options;
+    options.limits = limits;
+    try {
+      import_obj(folder.file("model.obj"), options);
+    } catch (const InputError& error) {
+      return printed(error.diagnostics().at(0));
+    }
+    return std::string();
+  };
+  Limits limits;
+  limits.primitives = 2;
+  limits.file_bytes = 200;
+  EXPECT_EQ(error_with(limits), "");
+  limits.primitives = 1;
+  EXPECT_EQ(error_with(limits),
+            "model.obj:6:1: error: more than 1 primitive may not be read\n    f 1 2 3 4\n    ^");
+  limits.primitives = 2;
+  limits.file_bytes = 100;
+  EXPECT_EQ(error_with(limits), "m.mtl: error: the file has 200 bytes; 100 may be read");
 }
 
 TEST(Obj, AMissingFileIsNamed) {
@@ -465,12 +620,13 @@ TEST(Obj, AMissingFileIsNamed) {
 TEST(Obj, AnyTextIsReadOrRefused) {
   EXPECT_TRUE(rc::check("random statements give a sound mesh or errors with lines", [] {
     const auto words = *rc::gen::container<std::vector<std::string>>(rc::gen::element<std::string>(
-        "v", "f", "vn", "vt", "s", "usemtl", "mtllib", "\n", "\n", "\nv 0 1 2", "\nf 1 2 3 4 5",
+        "v", "f", "vn", "vt", "p", "l", "s", "usemtl", "mtllib", "\n", "\n", "\nv 0 1 2", "\nf 1 2 3 4 5",
         "\nf -1 -2 -3", "0", "1", "2", "-1", "1/1", "1//1", ".5", "1e30", "\\\n", "#", "/", "x"));
     std::string text = *rc::gen::element<std::string>("", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n");
     for (const std::string& word : words) text += word + " ";
     try {
       const Model model = obj(text);
+      if (!std::holds_alternative<Mesh>(model.shapes.at(0).primitives)) return;
       const Mesh& mesh = mesh_of(model);
       RC_ASSERT(!mesh.triangles.empty());
       for (const auto& t : mesh.triangles)
@@ -496,7 +652,9 @@ TEST(Obj, EveryFileOfTheCorpusIsReadOrRefusedWithItsPlace) {
       SCOPED_TRACE(entry.path().string());
       try {
         const Model model = import_model(entry.path().string());
-        ASSERT_EQ(model.shapes.size(), 1u);
+        ASSERT_FALSE(model.shapes.empty());
+        ++read;
+        if (!std::holds_alternative<Mesh>(model.shapes[0].primitives)) continue;  // points and lines alone
         const Mesh& mesh = mesh_of(model);
         EXPECT_FALSE(mesh.triangles.empty());
         EXPECT_TRUE(std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [](const Vec3<float>& v) {
@@ -513,7 +671,6 @@ TEST(Obj, EveryFileOfTheCorpusIsReadOrRefusedWithItsPlace) {
         EXPECT_TRUE(of.empty() || of.size() == mesh.triangles.size());
         for (const std::uint32_t i : of) ASSERT_LT(i, model.materials.size());
         EXPECT_FALSE(model.materials.empty());
-        ++read;
       } catch (const InputError& error) {
         ASSERT_FALSE(error.diagnostics().empty());
         EXPECT_EQ(error.diagnostics()[0].place.file, entry.path().string());
