@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "commands.h"
 #include "console.h"
@@ -13,11 +14,27 @@ namespace {
 
 constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
 
+/// What is odd about a model file, and what of a scene's warnings is not among that.
+std::vector<Diagnostic> all_remarks(std::vector<Diagnostic> of_model,
+                                    const std::vector<Diagnostic>& of_scene) {
+  std::set<std::string> said;
+  for (const Diagnostic& diagnostic : of_model) said.insert(to_string(diagnostic));
+  for (const Diagnostic& diagnostic : of_scene)
+    if (!said.count(to_string(diagnostic))) of_model.push_back(diagnostic);
+  return of_model;
+}
+
 ExitCode check(const std::string& input) {
   try {
+    if (is_material_library(input)) {
+      const std::vector<Diagnostic> odd = lint(input);
+      report(odd, all);
+      print(fmt::format("{}: ok{}\n", input, odd.empty() ? "" : ", " + counted(odd.size(), "warning")));
+      return done;
+    }
     const ScenePtr scene = load_scene(input);
     const SceneSummary summary = summarize(scene);
-    const std::vector<Diagnostic>& odd = warnings(scene);
+    const std::vector<Diagnostic> odd = all_remarks(lint(input), warnings(scene));
     report(odd, all);
     print(fmt::format("{}: ok, {}, {}{}\n", input, counted(summary.objects.size(), "object"),
                       counted(summary.lights.size(), "light"),

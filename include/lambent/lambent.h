@@ -14,6 +14,7 @@
 
 #include "lambent/diagnostics.h"
 #include "lambent/image.h"
+#include "lambent/limits.h"
 
 namespace lambent {
 
@@ -57,6 +58,15 @@ std::string export_scene(const ScenePtr& scene, ExportFormat format, std::vector
 
 /// What was odd about the input, without being wrong.
 const std::vector<Diagnostic>& warnings(const ScenePtr& scene);
+
+/// Everything that is odd about an OBJ file and its libraries, or about a material library (.mtl), whether it
+/// matters to the picture or not: what `warnings` has of them, and faces, normals, materials and images that
+/// come to nothing or contradict each other. Of each kind a few, and how many there are more. Nothing for
+/// files of other kinds. Throws InputError with everything that is wrong.
+std::vector<Diagnostic> lint(const std::string& path, const Limits& limits = {});
+
+/// Whether the ending of `path` is that of material libraries, which are no scenes but can be looked through.
+bool is_material_library(const std::string& path);
 
 /// Whether the scene asks for layers, which only an EXR can hold.
 bool wants_layers(const ScenePtr& scene);

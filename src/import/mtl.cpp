@@ -196,6 +196,7 @@ class MaterialReader {
     }
     const std::string_view name = name_of(begin, end);
     say_what_is_ignored(which, key, said);
+    library_.images.push_back({std::size_t(name.data() - file_.text.data()), name.size(), file->path});
     if (file->path.empty()) return remark_missing(name, file->outside);
     NamedImage image;
     image.path = file->path;

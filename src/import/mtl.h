@@ -65,10 +65,17 @@
 
 namespace lambent {
 
+/// An image as a library names it, there or not.
+struct ImageName {
+  std::size_t at = 0, size = 0;  ///< Where the name stands in TextFile::text.
+  std::string path;              ///< Empty where there is no such file.
+};
+
 struct MaterialLibrary {
   /// In the order of the file; of equal names the first holds, and stands alone. Their maps index `textures`.
   std::vector<Material> materials;
   std::vector<Texture> textures;  ///< Not loaded; one for each file and use of it (colour or data).
+  std::vector<ImageName> images;  ///< In the order of the file.
   std::vector<Diagnostic> warnings;
 };
 

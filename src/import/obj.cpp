@@ -9,6 +9,8 @@
 // Colours of vertices (v x y z r g b, no part of the specification) are taken as those who write them mean
 // them: sRGB-encoded, 0 to 1, or 0 to 255 where one is above 1 and all are whole.
 
+#include "import/obj.h"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -18,7 +20,6 @@
 #include <set>
 #include <unordered_map>
 
-#include "import/model.h"
 #include "import/mtl.h"
 #include "import/paths.h"
 #include "import/text_file.h"
@@ -71,14 +72,15 @@ std::string plural(std::size_t count, const char* one, const char* many) {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, const ImportOptions& options) : options_(options), pieces_(path) {
+  ObjReader(const std::string& path, const ImportOptions& options)
+      : options_(within_folder_of(path, options)), pieces_(path) {
     must_be_within(path, options.limits.file_bytes);
-    // What the libraries name counts from the model's folder, too.
-    if (options_.root.empty()) options_.root = std::filesystem::path(path).parent_path().string();
-    if (options_.root.empty()) options_.root = ".";
     used_.push_back({});
     slot_of_name_[""] = 0;
   }
+
+  /// The paths of the libraries that were read.
+  const std::vector<std::string>& libraries() const { return libraries_; }
 
   Model read() {
     while (pieces_.next(file_)) {
@@ -408,6 +410,7 @@ class ObjReader {
     if (file.path.empty() && kept != name) file = find_named_file(file_.name, kept, options_);
     if (file.path.empty()) return file.outside ? Found::outside : Found::no;
     if (!paths_read_.insert(file.path).second) return Found::yes;
+    libraries_.push_back(file.path);
     try {
       must_be_within(file.path, options_.limits.file_bytes);
       MaterialLibrary library = read_material_library(read_text_file(file.path), options_);
@@ -678,6 +681,7 @@ class ObjReader {
   std::vector<Texture> textures_;  ///< Of the libraries; the maps in defined_ index them.
   std::map<std::pair<std::string, bool>, std::uint32_t> texture_kept_;
   std::set<std::string> libraries_seen_, paths_read_;
+  std::vector<std::string> libraries_;
   std::size_t missing_libraries_ = 0;
   bool any_library_ = false;
 
@@ -691,8 +695,22 @@ class ObjReader {
 
 }  // namespace
 
+Model read_obj(const std::string& path, const ImportOptions& options, std::vector<std::string>* libraries) {
+  ObjReader reader(path, options);
+  Model model = reader.read();
+  if (libraries) *libraries = reader.libraries();
+  return model;
+}
+
 Model import_obj(const std::string& path, const ImportOptions& options) {
-  return ObjReader(path, options).read();
+  return read_obj(path, options, nullptr);
+}
+
+ImportOptions within_folder_of(const std::string& path, const ImportOptions& options) {
+  ImportOptions result = options;
+  if (result.root.empty()) result.root = std::filesystem::path(path).parent_path().string();
+  if (result.root.empty()) result.root = ".";
+  return result;
 }
 
 }  // namespace lambent

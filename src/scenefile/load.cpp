@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "import/lint.h"
 #include "import/text_file.h"
 #include "lambent/lambent.h"
 #include "scenefile/autoscene.h"
@@ -97,10 +98,14 @@ PictureSize size_asked_for(const LoadOptions& options) {
   return {side(0), side(1)};
 }
 
-bool is_scene_file(const std::string& path) {
+std::string ending_of(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });
+  return ending;
+}
+bool is_scene_file(const std::string& path) {
+  const std::string ending = ending_of(path);
   return ending == ".yaml" || ending == ".yml" || ending == ".json";
 }
 
@@ -133,6 +138,17 @@ ScenePtr parse_scene(std::string_view yaml, const std::string& name, const LoadO
 std::string scene_text_of_model(const std::string& path) {
   must_exist(path);
   return scene_text(import_model(path), path);
+}
+
+bool is_material_library(const std::string& path) { return ending_of(path) == ".mtl"; }
+
+std::vector<Diagnostic> lint(const std::string& path, const Limits& limits) {
+  const std::string ending = ending_of(path);
+  if (ending != ".obj" && ending != ".mtl") return {};
+  must_exist(path);
+  ImportOptions options;
+  options.limits = limits;
+  return ending == ".obj" ? lint_obj(path, options) : lint_mtl(path, options);
 }
 
 const std::vector<Diagnostic>& warnings(const ScenePtr& scene) { return scene->warnings; }

@@ -43,6 +43,26 @@ TEST_F(Look, CheckSaysEverythingThatIsWrongWithEveryFile) {
   EXPECT_EQ(result.out.rfind("broken.yaml: " + std::to_string(said) + " errors\n", 0), 0u) << result.out;
 }
 
+TEST_F(Look, CheckLooksThroughModelsAndTheirLibraries) {
+  write_text(folder.file("model.obj"), "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 3 1\n");
+  write_text(folder.file("a.mtl"), "newmtl a\nKs 1 1 1\nillum 1\n");
+  const ProgramResult model = run({"check", "model.obj"});
+  EXPECT_EQ(model.exit_code, 0);
+  EXPECT_EQ(model.out.rfind("model.obj: ok, ", 0), 0u) << model.out;
+  EXPECT_NE(model.out.find(", 4 warnings\n"), std::string::npos) << model.out;
+  for (const char* text : {"model.obj:6:1: warning: this face has the corners of the one in line 5\n",
+                           "a.mtl:1:8: warning: material 'a' is on no face\n",
+                           "a.mtl:2:1: warning: Ks comes to nothing: illum 1 has no highlight\n"})
+    EXPECT_NE(model.err.find(text), std::string::npos) << text << " is not in\n" << model.err;
+  const ProgramResult library = run({"check", "a.mtl"});
+  EXPECT_EQ(library.exit_code, 0);
+  EXPECT_EQ(library.out, "a.mtl: ok, 2 warnings\n");
+  write_text(folder.file("broken.mtl"), "newmtl a\nKs 1 1\n");
+  const ProgramResult broken = run({"check", "broken.mtl", "nowhere.mtl"});
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_EQ(broken.out, "broken.mtl: 1 error\nnowhere.mtl: 1 error\n");
+}
+
 TEST_F(Look, InfoOfASceneForPrograms) {
   const ProgramResult result = run({"info", "scene.yaml", "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
