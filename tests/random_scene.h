@@ -30,10 +30,11 @@ inline std::string random_scene(unsigned seed, int width, int height, const std:
   std::string text = fmt::format(
       "lambent: 1\ncamera: {{eye: [{:.3f}, {:.3f}, 6], target: [0, 0, 0], fov: 40}}\n"
       "image: {{size: [{}, {}], samples: {}, pattern: {}}}\n"
-      "illumination: {{model: {}, ambient: {}}}\n"
+      "illumination: {{model: {}, ambient: {}{}}}\n"
       "integrator: {{whitted: {{max_depth: {}, colored_shadows: {}}}}}\nbackground: {}\nlights:\n",
       number(-1, 1), number(-1, 1), width, height, samples, chance(0.1) ? "corners" : "stratified", model(),
-      color(1), std::uniform_int_distribution<int>(1, 6)(random), chance(0.7), color(0.5));
+      color(1), chance(0.3) ? ", ambient_occlusion: {rays: 2, distance: 3}" : "",
+      std::uniform_int_distribution<int>(1, 6)(random), chance(0.7), color(0.5));
   const int lights = std::uniform_int_distribution<int>(1, 4)(random);
   for (int i = 0; i < lights; ++i) {
     if (chance(0.5))
@@ -50,13 +51,23 @@ inline std::string random_scene(unsigned seed, int width, int height, const std:
   }
   text += "materials:\n";
   const int materials = 4;
-  for (int i = 0; i < materials; ++i)
+  for (int i = 0; i < materials; ++i) {
+    if (chance(0.15)) {
+      text += fmt::format(
+          "  - {{name: m{}, model: {}, opacity: {:.2f}, one_sided: {}, metallic_roughness: {{base_color: {}, "
+          "metallic: {:.2f}, roughness: {:.2f}, transmission: {}, clearcoat: {}}}}}\n",
+          i, model(), chance(0.5) ? 1.0 : number(0, 1), chance(0.3), color(1), number(0, 1), number(0, 1),
+          chance(0.3) ? "0.6" : "0", chance(0.3) ? "0.8" : "0");
+      continue;
+    }
     text += fmt::format(
         "  - {{name: m{}, model: {}, ambient: {}, diffuse: {}, specular: {}, shininess: {:.2f}, reflect: {}, "
         "transmit: {}, "
-        "ior: {:.2f}, emission: {}}}\n",
+        "ior: {:.2f}, emission: {}, opacity: {:.2f}, one_sided: {}}}\n",
         i, model(), color(0.3), color(1), color(1), number(1, 100), chance(0.4) ? color(0.6) : "0",
-        chance(0.3) ? color(0.9) : "0", number(1, 2), chance(0.2) ? color(0.5) : "0");
+        chance(0.3) ? color(0.9) : "0", number(1, 2), chance(0.2) ? color(0.5) : "0",
+        chance(0.8) ? 1.0 : number(0, 1), chance(0.1));
+  }
   text += "objects:\n";
   const auto material = [&] { return std::uniform_int_distribution<int>(0, materials - 1)(random); };
   const int objects = std::uniform_int_distribution<int>(2, 8)(random);

@@ -5,6 +5,8 @@
 // and on the processor. These use only + - * / and moves of bits, which IEEE 754 fixes to the last bit, so a
 // picture is the same on every machine. (Compile with -ffp-contract=off.)
 
+#include <initializer_list>
+
 #include "math/number.h"
 
 namespace lambent {
