@@ -17,6 +17,8 @@ constexpr Format formats[] = {
     {".nff", import_nff},
     {".ply", import_ply},
     {".stl", import_stl},
+    {".gltf", import_gltf},
+    {".glb", import_gltf},
 };
 
 const Format* format_of(const std::string& path) {

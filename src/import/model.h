@@ -41,24 +41,26 @@ struct Model {
 };
 
 struct ImportOptions {
-  double time = 0;  ///< Seconds: the pose of what is animated.
-  Limits limits;    ///< What is beyond is refused.
+  /// Seconds: the pose of what is animated. Unset: the pose in which the file has it at rest.
+  std::optional<double> time;
+  Limits limits;  ///< What is beyond is refused.
   /// The folder that files which the model names must lie in, or below. Empty: the model's own.
   std::string root;
 };
 
-/// Read a model file; its ending (.obj, .nff, .ply, .stl) names the format. Throws InputError with the file's name and
-/// line.
+/// Read a model file; its ending (.obj, .nff, .ply, .stl, .gltf, .glb) names the format. Throws InputError with
+/// the file's name and line.
 Model import_model(const std::string& path, const ImportOptions& options = {});
 
 Model import_obj(const std::string& path, const ImportOptions& options = {});
 Model import_nff(const std::string& path, const ImportOptions& options = {});
 Model import_ply(const std::string& path, const ImportOptions& options = {});
 Model import_stl(const std::string& path, const ImportOptions& options = {});
+Model import_gltf(const std::string& path, const ImportOptions& options = {});
 
 /// Whether import_model knows the ending of `path`.
 bool is_model_file(const std::string& path);
-/// The endings it knows, for messages: ".obj, .nff, .ply, .stl".
+/// The endings it knows, for messages: ".obj, .nff, .ply, .stl, .gltf, .glb".
 std::string model_file_endings();
 
 }  // namespace lambent

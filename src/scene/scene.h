@@ -352,8 +352,8 @@ struct Mesh {
   /// Linear R, G, B, and opacity: factors on the material's ambient and diffuse colour (or its base colour)
   /// and on its opacity.
   std::vector<std::array<float, 4>> colors;
-  /// For normal maps: the unit vector T along growing u, and a sign s, so that s (N x T) points along growing
-  /// v. Made of the triangle's texture coordinates where empty.
+  /// x, y, z: a unit vector along growing u. w, 1 or -1: w * cross(normal, tangent) points along growing v,
+  /// to the image's upper edge. For normal maps; made of the triangle's texture coordinates where empty.
   std::vector<std::array<float, 4>> tangents;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };

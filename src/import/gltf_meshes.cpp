@@ -1,0 +1,197 @@
+#include "import/gltf_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "import/gltf_primitive.h"
+#include "import/tangents.h"
+
+namespace lambent::gltf {
+
+namespace {
+
+enum Mode { points, lines, line_loop, line_strip, triangles, triangle_strip, triangle_fan };
+
+// Shares of the diagonal of all that is shown: about three pixels, and about two.
+constexpr double point_radius = 1.0 / 400, line_radius = 1.0 / 600;
+
+/// How many primitives so many corners make.
+std::uint64_t primitives_of(Mode mode, std::uint64_t corners) {
+  switch (mode) {
+    case points:
+      return corners;
+    case lines:
+      return corners / 2;
+    case line_loop:
+      return corners < 2 ? 0 : corners;
+    case line_strip:
+      return corners < 2 ? 0 : corners - 1;
+    case triangles:
+      return corners / 3;
+    case triangle_strip:
+    case triangle_fan:
+      return corners < 3 ? 0 : corners - 2;
+  }
+  return 0;
+}
+
+/// The corners of primitive `i`, of as many as there are of it.
+std::array<std::size_t, 3> corners_of(Mode mode, std::size_t i, std::size_t corners) {
+  switch (mode) {
+    case points:
+      return {i, 0, 0};
+    case lines:
+      return {2 * i, 2 * i + 1, 0};
+    case line_loop:
+      return {i, (i + 1) % corners, 0};
+    case line_strip:
+      return {i, i + 1, 0};
+    case triangles:
+      return {3 * i, 3 * i + 1, 3 * i + 2};
+    case triangle_strip:
+      return {i, i + 1 + i % 2, i + 2 - i % 2};
+    case triangle_fan:
+      return {i + 1, i + 2, 0};
+  }
+  return {};
+}
+
+bool has_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  const Vec3<double> a = cast<double>(mesh.vertices[t[0]]), b = cast<double>(mesh.vertices[t[1]]),
+                     c = cast<double>(mesh.vertices[t[2]]);
+  return !(cross(b - a, c - a) == Vec3<double>{});
+}
+
+/// The triangles of a primitive, with the vertices that they have.
+Mesh read_triangles(PrimitiveReader& reader, Mode mode, const MaterialTraits& traits,
+                    std::vector<std::uint32_t>& place) {
+  const std::size_t corners = reader.corners(), count = primitives_of(mode, corners);
+  std::vector<std::array<std::uint32_t, 3>> found;
+  found.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = corners_of(mode, i, corners);
+    const std::array<std::uint32_t, 3> t{reader.corner(at[0]), reader.corner(at[1]), reader.corner(at[2])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) found.push_back(t);
+  }
+  // Many primitives may share one large set of vertices: each takes only those that it has.
+  constexpr std::uint32_t unused = ~0u;
+  if (place.size() < reader.vertices()) place.resize(reader.vertices(), unused);
+  std::vector<std::uint32_t> used;
+  for (const auto& t : found)
+    for (const std::uint32_t vertex : t)
+      if (place[vertex] == unused) place[vertex] = 0, used.push_back(vertex);
+  std::sort(used.begin(), used.end());
+  for (std::size_t i = 0; i < used.size(); ++i) place[used[i]] = std::uint32_t(i);
+  for (auto& t : found)
+    for (std::uint32_t& vertex : t) vertex = place[vertex];
+  for (const std::uint32_t vertex : used) place[vertex] = unused;
+
+  Mesh mesh = reader.read(used, traits.opaque);
+  found.erase(std::remove_if(found.begin(), found.end(), [&](const auto& t) { return !has_area(mesh, t); }),
+              found.end());
+  mesh.triangles = std::move(found);
+  const bool has_uvs =
+      traits.normal_uvs == 0 ? !mesh.uvs.empty() : traits.normal_uvs == 1 && !mesh.uvs2.empty();
+  if (has_uvs && mesh.tangents.empty() && !mesh.normals.empty()) make_tangents(mesh, traits.normal_uvs);
+  return mesh;
+}
+
+std::vector<Sphere> read_points(PrimitiveReader& reader, double radius) {
+  std::vector<Sphere> spheres;
+  spheres.reserve(reader.corners());
+  for (std::size_t i = 0; i < reader.corners(); ++i)
+    spheres.push_back({reader.position(reader.corner(i)), radius});
+  return spheres;
+}
+
+std::vector<Cone> read_lines(PrimitiveReader& reader, Mode mode, double radius) {
+  const std::size_t corners = reader.corners(), count = primitives_of(mode, corners);
+  std::vector<Cone> cylinders;
+  cylinders.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = corners_of(mode, i, corners);
+    const Vec3<double> from = reader.position(reader.corner(at[0])),
+                       to = reader.position(reader.corner(at[1]));
+    if (!(from == to)) cylinders.push_back({from, to, radius, radius});
+  }
+  return cylinders;
+}
+
+}  // namespace
+
+const std::vector<Meshes::Part>& Meshes::of_node(std::size_t number) {
+  const Json& node = root_["nodes"][number];
+  const Json& skin = member(node, "skin");
+  return parts(node["mesh"].get<std::size_t>(), skin.is_null() ? none : skin.get<std::size_t>(),
+               pose_.weights[number], std::cbrt(std::abs(determinant(pose_.world_from_node[number]))));
+}
+
+const std::vector<Meshes::Part>& Meshes::of_mesh(std::size_t mesh) {
+  std::vector<double> weights;
+  const Json& given = member(root_["meshes"][mesh], "weights");
+  for (const Json& weight : given) weights.push_back(weight.get<double>());
+  return parts(mesh, none, weights, 1);
+}
+
+const std::vector<Meshes::Part>& Meshes::parts(std::size_t mesh, std::size_t skin,
+                                               const std::vector<double>& weights, double scale) {
+  const auto [found, is_new] = parts_.try_emplace(Key{mesh, skin, weights});
+  if (!is_new) return found->second;
+  const Json& json = root_["meshes"][mesh];
+  const std::string name = text(json, "name");
+  for (std::size_t i = 0; i < json["primitives"].size(); ++i) {
+    const Json& primitive = json["primitives"][i];
+    const std::string at = std::string("/meshes") / mesh / std::string_view("primitives") / i;
+    if (!primitive["attributes"].contains("POSITION")) {
+      remarks_.warn(at + "/attributes", "there is no POSITION; the primitive is left out");
+      continue;
+    }
+    const auto mode = Mode(whole(primitive, "mode", triangles));
+    PrimitiveReader reader(root_, primitive, at, weights, skin == none ? nullptr : &joints(skin), buffers_,
+                           remarks_);
+    count_primitives(primitives_of(mode, reader.corners()), at);
+    const double unit = diagonal_ / (reader.is_skinned() ? 1 : scale);
+    Shape shape;
+    shape.name = name.empty() ? "mesh " + std::to_string(mesh + 1) : name;
+    const std::uint32_t material = materials_.of(primitive);
+    if (mode == points) shape.primitives = read_points(reader, point_radius * unit);
+    else if (mode < triangles) shape.primitives = read_lines(reader, mode, line_radius * unit);
+    else shape.primitives = read_triangles(reader, mode, materials_.traits(material), place_of_vertex_);
+    const std::size_t count = primitive_count(shape);
+    if (count == 0) continue;
+    if (material != 0) shape.material_of_primitive.assign(count, material);
+    found->second.push_back({std::uint32_t(model_.shapes.size()), reader.is_skinned()});
+    model_.shapes.push_back(std::move(shape));
+  }
+  return found->second;
+}
+
+void Meshes::count_primitives(std::uint64_t more, const std::string& at) {
+  primitives_ += more;
+  if (primitives_ > options_.limits.primitives)
+    remarks_.fail(at, "the model has more than " + std::to_string(options_.limits.primitives) +
+                          " primitives, which is the limit");
+}
+
+const std::vector<Transform>& Meshes::joints(std::size_t skin) {
+  const auto [found, is_new] = joints_.try_emplace(skin);
+  if (!is_new) return found->second;
+  const Json& json = root_["skins"][skin];
+  std::optional<Accessor> binds;
+  if (const Json& index = member(json, "inverseBindMatrices"); !index.is_null())
+    binds.emplace(root_, index.get<std::size_t>(), buffers_, remarks_);
+  for (std::size_t i = 0; i < json["joints"].size(); ++i) {
+    Transform bind;
+    if (binds) {
+      const auto column = [&](int c) {
+        return Vec3<double>{binds->value(i, c), binds->value(i, c + 1), binds->value(i, c + 2)};
+      };
+      bind = {column(0), column(4), column(8), column(12)};
+    }
+    found->second.push_back(pose_.world_from_node[json["joints"][i].get<std::size_t>()] * bind);
+  }
+  return found->second;
+}
+
+}  // namespace lambent::gltf
