@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <map>
+#include <set>
 
 #include "import/paths.h"
 #include "import/text_file.h"
@@ -105,7 +105,7 @@ void Buffers::load(std::size_t number, Buffer& buffer) {
   if (buffer.bytes->size() < length)
     remarks_.fail(at, "is to have " + std::to_string(length) + " bytes, but there are only " +
                           std::to_string(buffer.bytes->size()));
-  if (!buffer.own.empty()) total_ += buffer.own.size();
+  total_ += buffer.own.size();
 }
 
 void Buffers::load_file(const std::string& uri, const std::string& at, Buffer& buffer) {
@@ -128,8 +128,12 @@ void Buffers::load_file(const std::string& uri, const std::string& at, Buffer& b
   if (!ignored && size > options_.limits.file_bytes)
     remarks_.fail(at, in_quotes(file.path) + " has " + std::to_string(size) + " bytes; the limit is " +
                           std::to_string(options_.limits.file_bytes));
-  buffer.own = read_file(file.path);
-  buffer.bytes = buffer.own;
+  const auto [found, is_new] = files_.try_emplace(file.path);
+  if (is_new) {
+    found->second = read_file(file.path);
+    total_ += found->second.size();
+  }
+  buffer.bytes = found->second;
 }
 
 std::optional<std::string_view> Buffers::view(std::size_t number) {
@@ -137,6 +141,18 @@ std::optional<std::string_view> Buffers::view(std::size_t number) {
   const auto all = bytes(whole(json, "buffer", 0));
   if (!all) return std::nullopt;
   return all->substr(whole(json, "byteOffset", 0), whole(json, "byteLength", 0));
+}
+
+bool Buffers::is_open(std::size_t accessor) const {
+  const Json& json = root_["accessors"][accessor];
+  const auto open = [&](const Json& view) {
+    if (view.is_null()) return false;
+    const std::size_t buffer = whole(root_["bufferViews"][view.get<std::size_t>()], "buffer", 0);
+    return member(root_["buffers"][buffer], "uri").is_null() && !(buffer == 0 && container_.data());
+  };
+  const Json& sparse = member(json, "sparse");
+  return open(member(json, "bufferView")) || (!sparse.is_null() && (open(sparse["indices"]["bufferView"]) ||
+                                                                    open(sparse["values"]["bufferView"])));
 }
 
 bool Buffers::has_accessor(std::size_t accessor) {
@@ -252,6 +268,7 @@ class DataCheck {
 
   void accessors() {
     const Json& all = member(root_, "accessors");
+    effort(all);
     for (std::size_t i = 0; i < all.size(); ++i)
       if (buffers_.has_accessor(i))
         accessor(all[i], Accessor(root_, i, buffers_, remarks_), std::string("/accessors") / i);
@@ -275,7 +292,52 @@ class DataCheck {
       }
   }
 
+  void tangents() {
+    const Json& meshes = member(root_, "meshes");
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+      for (std::size_t p = 0; p < meshes[m]["primitives"].size(); ++p) {
+        const Json& attributes = meshes[m]["primitives"][p]["attributes"];
+        const std::string at =
+            std::string("/meshes") / m / std::string_view("primitives") / p / std::string_view("attributes");
+        if (const Json& index = member(attributes, "NORMAL"); !index.is_null())
+          directions(index, at + "/NORMAL");
+        if (const Json& index = member(attributes, "TANGENT"); !index.is_null())
+          directions(index, at + "/TANGENT");
+      }
+  }
+
  private:
+  /// Accessors may share bytes, but must not make the numbers of a small file many: they are all looked at.
+  void effort(const Json& all) {
+    constexpr std::uint64_t most_times = 256;
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!buffers_.has_accessor(i)) continue;
+      bytes += whole(all[i], "count", 0) * std::uint64_t(layout_of(all[i]).size());
+      if (bytes / most_times > buffers_.total())
+        remarks_.fail("/accessors", "together they have more than " + std::to_string(most_times) +
+                                        " times the file's bytes");
+    }
+  }
+
+  /// Normals and tangents.
+  void directions(const Json& index, const std::string& at) {
+    const auto number = index.get<std::size_t>();
+    if (!buffers_.has_accessor(number) || !seen_.insert(number).second) return;
+    const Accessor all(root_, number, buffers_, remarks_);
+    bool odd = false;
+    for (std::size_t i = 0; i < all.count(); ++i) {
+      const double x = all.value(i, 0), y = all.value(i, 1), z = all.value(i, 2),
+                   side = all.components() == 4 ? all.value(i, 3) : 1;
+      if (std::abs(side) != 1)
+        return remarks_.error(at, "the fourth number of vertex " + std::to_string(i) +
+                                      " must be 1 or -1, not " + decimal(side));
+      // As the validator has it; normalized bytes hold no better ones.
+      odd |= std::abs(std::sqrt(x * x + y * y + z * z) - 1) > 0.02;
+    }
+    if (odd) remarks_.warn(at, "not all are of length 1; they are brought to it");
+  }
+
   void accessor(const Json& json, const Accessor& accessor, const std::string& at) {
     const int components = accessor.components();
     const bool floats = accessor.layout().component_type == 5126;
@@ -313,6 +375,7 @@ class DataCheck {
   }
 
   std::map<std::size_t, std::uint32_t> largest_;
+  std::set<std::size_t> seen_;
   const Json& root_;
   Buffers& buffers_;
   Remarks& remarks_;
@@ -325,6 +388,7 @@ void check_data(const Json& root, Buffers& buffers, Remarks& remarks) {
   check.accessors();
   remarks.throw_errors();
   check.indices();
+  check.tangents();
 }
 
 }  // namespace lambent::gltf

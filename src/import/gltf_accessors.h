@@ -2,6 +2,7 @@
 // Buffers, views of them, and accessors: how glTF stores its numbers (the specification, chapter 3.6).
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,6 +41,8 @@ class Buffers {
   /// Throws InputError where there are some and they do not suffice.
   std::optional<std::string_view> bytes(std::size_t buffer);
   const std::string& why_not(std::size_t buffer) const { return buffers_[buffer].why_not; }
+  /// Whether an accessor names a buffer that the file itself leaves open: it has no uri.
+  bool is_open(std::size_t accessor) const;
   /// The bytes of a buffer view; likewise.
   std::optional<std::string_view> view(std::size_t buffer_view);
   /// Whether all bytes of an accessor are there; false for one that is nothing but zeroes.
@@ -50,7 +53,7 @@ class Buffers {
  private:
   struct Buffer {
     bool asked = false;
-    std::string own;
+    std::string own;  ///< Of a data URI.
     std::optional<std::string_view> bytes;
     std::string why_not;
   };
@@ -62,6 +65,7 @@ class Buffers {
   const ImportOptions& options_;
   Remarks& remarks_;
   std::vector<Buffer> buffers_;
+  std::map<std::string, std::string> files_;  ///< By path: several buffers may name one.
   std::uint64_t total_;
 };
 
@@ -97,7 +101,8 @@ class Accessor {
 };
 
 /// What an accessor's numbers must fulfil: finite, within its own min and max, which are themselves reached;
-/// indices of vertices that there are. All accessors whose bytes are there are checked.
+/// indices of vertices that there are, tangents with a side. All accessors whose bytes are there are
+/// checked.
 void check_data(const Json& root, Buffers& buffers, Remarks& remarks);
 
 }  // namespace lambent::gltf

@@ -55,34 +55,41 @@ std::uint32_t Materials::of(const Json& primitive) {
   if (!default_) {
     add(Json::object(), "");
     default_ = std::uint32_t(model_.materials.size() - 1);
-    model_.materials.back().name = unique_name("default");
+    model_.materials.back().name = names_("default");
   }
   return *default_;
 }
 
-std::string Materials::unique_name(const std::string& wanted) {
-  std::string name = wanted;
-  for (int number = 2; !names_.insert(name).second; ++number) name = wanted + " " + std::to_string(number);
-  return name;
+std::uint32_t Materials::tinted(std::uint32_t original, const std::array<float, 4>& color) {
+  if (color == std::array<float, 4>{1, 1, 1, 1}) return original;
+  const auto [found, is_new] = tinted_.try_emplace({original, color}, std::uint32_t(model_.materials.size()));
+  if (!is_new) return found->second;
+  Material material = model_.materials[original];
+  material.name = names_(material.name + ", tinted");
+  Rgb& base = material.metallic_roughness ? material.metallic_roughness->base_color : material.emission;
+  for (int i = 0; i < 3; ++i) base[i] *= double(color[std::size_t(i)]);
+  if (!traits_[original].opaque) material.opacity *= double(color[3]);
+  model_.materials.push_back(std::move(material));
+  traits_.push_back(MaterialTraits(traits_[original]));
+  return found->second;
 }
 
 void Materials::add(const Json& json, const std::string& at) {
   Material material;
   if (!at.empty()) {
     const std::string name = text(json, "name");
-    material.name =
-        unique_name(name.empty() ? "material " + std::to_string(model_.materials.size() + 1) : name);
+    material.name = names_(name.empty() ? "material " + std::to_string(model_.materials.size() + 1) : name);
   }
   material.place.file = remarks_.file();
   const std::string mode = text(json, "alphaMode", "OPAQUE");
   MaterialTraits traits;
   traits.opaque = mode == "OPAQUE";
+  traits.unlit = extension(json, "KHR_materials_unlit").is_object();
   material.alpha = mode == "MASK" ? Alpha::mask : Alpha::blend;
   material.alpha_cutoff = number(json, "alphaCutoff", 0.5);
   material.one_sided = !flag(json, "doubleSided", false);
-  const bool unlit = extension(json, "KHR_materials_unlit").is_object();
   const Json& glossy = extension(json, "KHR_materials_pbrSpecularGlossiness");
-  if (unlit) {
+  if (traits.unlit) {
     // What it shows is its base colour, whatever the light.
     material.ambient = material.diffuse = Rgb{};
     const Json& settings = member(json, "pbrMetallicRoughness");
@@ -248,9 +255,15 @@ const std::optional<ImageSource>& Materials::image(std::size_t number_of_image) 
                 std::filesystem::path(remarks_.file()).filename().string();
   source.place.file = remarks_.file();
   if (const Json& view = member(json, "bufferView"); !view.is_null()) {
-    if (const auto bytes = buffers_.view(view.get<std::size_t>()))
+    if (const auto bytes = buffers_.view(view.get<std::size_t>())) {
+      // Images may share bytes, but not to the point that the file's size says nothing.
+      image_bytes_ += bytes->size();
+      if (image_bytes_ > 4 * buffers_.total())
+        remarks_.fail(at, "the images have more bytes than the file several times over");
       source.bytes = std::make_shared<std::string>(*bytes);
-    else remarks_.warn(at, "the image's bytes are missing; it is left out");
+    } else {
+      remarks_.warn(at, "the image's bytes are missing; it is left out");
+    }
   } else if (is_data_uri(uri)) {
     std::string complaint;
     source.bytes = std::make_shared<std::string>(read_data_uri(uri, complaint)->bytes);

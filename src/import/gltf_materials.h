@@ -2,16 +2,17 @@
 // Materials, textures, images and samplers of glTF.
 
 #include <map>
-#include <set>
 #include <utility>
 
 #include "import/gltf_accessors.h"
+#include "import/unique_names.h"
 
 namespace lambent::gltf {
 
 /// What meshes must know of a material.
 struct MaterialTraits {
-  bool opaque = true;   ///< Alpha counts nothing.
+  bool opaque = true;  ///< Alpha counts nothing.
+  bool unlit = false;
   int normal_uvs = -1;  ///< The set of texture coordinates of its normal map; -1: it has none.
 };
 
@@ -25,6 +26,9 @@ class Materials {
   /// The index in the model of a primitive's material; where it has none, the specification's default.
   std::uint32_t of(const Json& primitive);
   const MaterialTraits& traits(std::uint32_t material) const { return traits_[material]; }
+  /// The same material in another colour, for what can have no colours of its own: its base colour (and, if
+  /// alpha counts, its opacity) times `color`.
+  std::uint32_t tinted(std::uint32_t material, const std::array<float, 4>& color);
 
  private:
   void add(const Json& json, const std::string& at);
@@ -38,7 +42,6 @@ class Materials {
                   int channel = -1);
   std::optional<std::uint32_t> texture(const Json& json, const std::string& at, bool srgb);
   const std::optional<ImageSource>& image(std::size_t number);
-  std::string unique_name(const std::string& wanted);
 
   const Json& root_;
   Buffers& buffers_;
@@ -47,8 +50,10 @@ class Materials {
   Model& model_;
   std::vector<MaterialTraits> traits_;
   std::optional<std::uint32_t> default_;
-  std::set<std::string> names_;
+  UniqueNames names_;
+  std::map<std::pair<std::uint32_t, std::array<float, 4>>, std::uint32_t> tinted_;
   std::map<std::size_t, std::optional<ImageSource>> images_;
+  std::uint64_t image_bytes_ = 0;                                   ///< Copied out of buffers.
   std::map<std::pair<std::size_t, bool>, std::uint32_t> textures_;  ///< By image and encoding.
 };
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "import/gltf_primitive.h"
 #include "import/tangents.h"
 
 namespace lambent::gltf {
@@ -105,15 +104,36 @@ std::vector<Sphere> read_points(PrimitiveReader& reader, double radius) {
   return spheres;
 }
 
-std::vector<Cone> read_lines(PrimitiveReader& reader, Mode mode, double radius) {
+using Rgba = std::array<float, 4>;
+
+Rgba mean(std::initializer_list<Rgba> colors) {
+  Rgba sum{};
+  for (const Rgba& color : colors)
+    for (std::size_t i = 0; i < 4; ++i) sum[i] += color[i] / float(colors.size());
+  return sum;
+}
+
+/// To one of 32 steps in each channel, even to the eye.
+Rgba rounded(Rgba color) {
+  for (float& x : color) {
+    const float step = std::round(31 * std::sqrt(x)) / 31;
+    x = step * step;
+  }
+  return color;
+}
+
+std::vector<Cone> read_lines(PrimitiveReader& reader, Mode mode, double radius, bool opaque,
+                             std::vector<Rgba>& colors) {
   const std::size_t corners = reader.corners(), count = primitives_of(mode, corners);
   std::vector<Cone> cylinders;
   cylinders.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = corners_of(mode, i, corners);
-    const Vec3<double> from = reader.position(reader.corner(at[0])),
-                       to = reader.position(reader.corner(at[1]));
-    if (!(from == to)) cylinders.push_back({from, to, radius, radius});
+    const std::uint32_t a = reader.corner(at[0]), b = reader.corner(at[1]);
+    const Vec3<double> from = reader.position(a), to = reader.position(b);
+    if (from == to) continue;
+    cylinders.push_back({from, to, radius, radius});
+    if (reader.has_colors()) colors.push_back(mean({reader.color(a, opaque), reader.color(b, opaque)}));
   }
   return cylinders;
 }
@@ -127,11 +147,21 @@ const std::vector<Meshes::Part>& Meshes::of_node(std::size_t number) {
                pose_.weights[number], std::cbrt(std::abs(determinant(pose_.world_from_node[number]))));
 }
 
-const std::vector<Meshes::Part>& Meshes::of_mesh(std::size_t mesh) {
+const std::vector<Meshes::Part>& Meshes::of_mesh(std::size_t mesh) { return parts(mesh, none, {}, 1); }
+
+std::vector<double> Meshes::own_weights(const Json& mesh) const {
   std::vector<double> weights;
-  const Json& given = member(root_["meshes"][mesh], "weights");
-  for (const Json& weight : given) weights.push_back(weight.get<double>());
-  return parts(mesh, none, weights, 1);
+  for (const Json& weight : member(mesh, "weights")) weights.push_back(weight.get<double>());
+  return weights;
+}
+
+bool Meshes::is_open(const Json& primitive) const {
+  const auto open = [&](const Json& index) { return buffers_.is_open(index.get<std::size_t>()); };
+  if (const Json& indices = member(primitive, "indices"); !indices.is_null() && open(indices)) return true;
+  if (std::any_of(primitive["attributes"].begin(), primitive["attributes"].end(), open)) return true;
+  const Json& targets = member(primitive, "targets");
+  return std::any_of(targets.begin(), targets.end(),
+                     [&](const Json& target) { return std::any_of(target.begin(), target.end(), open); });
 }
 
 const std::vector<Meshes::Part>& Meshes::parts(std::size_t mesh, std::size_t skin,
@@ -140,6 +170,7 @@ const std::vector<Meshes::Part>& Meshes::parts(std::size_t mesh, std::size_t ski
   if (!is_new) return found->second;
   const Json& json = root_["meshes"][mesh];
   const std::string name = text(json, "name");
+  const std::vector<double> used = weights.empty() ? own_weights(json) : weights;
   for (std::size_t i = 0; i < json["primitives"].size(); ++i) {
     const Json& primitive = json["primitives"][i];
     const std::string at = std::string("/meshes") / mesh / std::string_view("primitives") / i;
@@ -147,24 +178,57 @@ const std::vector<Meshes::Part>& Meshes::parts(std::size_t mesh, std::size_t ski
       remarks_.warn(at + "/attributes", "there is no POSITION; the primitive is left out");
       continue;
     }
+    if (is_open(primitive)) {
+      remarks_.warn(at, "its buffer has no uri, so there are no bytes; the primitive is left out");
+      continue;
+    }
     const auto mode = Mode(whole(primitive, "mode", triangles));
-    PrimitiveReader reader(root_, primitive, at, weights, skin == none ? nullptr : &joints(skin), buffers_,
+    PrimitiveReader reader(root_, primitive, at, used, skin == none ? nullptr : &joints(skin), buffers_,
                            remarks_);
     count_primitives(primitives_of(mode, reader.corners()), at);
-    const double unit = diagonal_ / (reader.is_skinned() ? 1 : scale);
-    Shape shape;
+    Shape shape = read(reader, mode, materials_.of(primitive), diagonal_ / (reader.is_skinned() ? 1 : scale));
+    if (primitive_count(shape) == 0) continue;
     shape.name = name.empty() ? "mesh " + std::to_string(mesh + 1) : name;
-    const std::uint32_t material = materials_.of(primitive);
-    if (mode == points) shape.primitives = read_points(reader, point_radius * unit);
-    else if (mode < triangles) shape.primitives = read_lines(reader, mode, line_radius * unit);
-    else shape.primitives = read_triangles(reader, mode, materials_.traits(material), place_of_vertex_);
-    const std::size_t count = primitive_count(shape);
-    if (count == 0) continue;
-    if (material != 0) shape.material_of_primitive.assign(count, material);
     found->second.push_back({std::uint32_t(model_.shapes.size()), reader.is_skinned()});
     model_.shapes.push_back(std::move(shape));
   }
   return found->second;
+}
+
+Shape Meshes::read(PrimitiveReader& reader, int mode_number, std::uint32_t material, double unit) {
+  const auto mode = Mode(mode_number);
+  const MaterialTraits traits = materials_.traits(material);
+  Shape shape;
+  std::vector<std::array<float, 4>> colors;  // of primitives that can have none themselves
+  if (mode == points) {
+    shape.primitives = read_points(reader, point_radius * unit);
+    for (std::size_t i = 0; reader.has_colors() && i < reader.corners(); ++i)
+      colors.push_back(reader.color(reader.corner(i), traits.opaque));
+  } else if (mode < triangles) {
+    shape.primitives = read_lines(reader, mode, line_radius * unit, traits.opaque, colors);
+  } else {
+    Mesh mesh = read_triangles(reader, mode, traits, place_of_vertex_);
+    if (traits.unlit && !mesh.colors.empty()) {
+      // What glows has no vertex colours: each triangle gets the mean of its corners'.
+      for (const auto& t : mesh.triangles) {
+        std::array<float, 4> color = mean({mesh.colors[t[0]], mesh.colors[t[1]], mesh.colors[t[2]]});
+        color[3] = 1;
+        colors.push_back(color);
+      }
+      for (auto& color : mesh.colors) color = {1, 1, 1, color[3]};
+    }
+    shape.primitives = std::move(mesh);
+  }
+  if (!colors.empty()) {
+    // One colour is kept as it is; of many, those that hardly differ are taken together.
+    const bool one =
+        std::all_of(colors.begin(), colors.end(), [&](const auto& color) { return color == colors[0]; });
+    for (const auto& color : colors)
+      shape.material_of_primitive.push_back(materials_.tinted(material, one ? color : rounded(color)));
+  } else if (material != 0) {
+    shape.material_of_primitive.assign(primitive_count(shape), material);
+  }
+  return shape;
 }
 
 void Meshes::count_primitives(std::uint64_t more, const std::string& at) {

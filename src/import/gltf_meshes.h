@@ -6,6 +6,7 @@
 
 #include "import/gltf_materials.h"
 #include "import/gltf_pose.h"
+#include "import/gltf_primitive.h"
 
 namespace lambent::gltf {
 
@@ -37,10 +38,15 @@ class Meshes {
 
  private:
   static constexpr std::size_t none = ~std::size_t{0};
-  using Key = std::tuple<std::size_t, std::size_t, std::vector<double>>;  ///< Mesh, skin, weights.
+  /// Mesh, skin, and weights where they are not the mesh's own.
+  using Key = std::tuple<std::size_t, std::size_t, std::vector<double>>;
 
   const std::vector<Part>& parts(std::size_t mesh, std::size_t skin, const std::vector<double>& weights,
                                  double scale);
+  std::vector<double> own_weights(const Json& mesh) const;
+  /// Whether the file leaves open where bytes of a primitive come from.
+  bool is_open(const Json& primitive) const;
+  Shape read(PrimitiveReader& reader, int mode, std::uint32_t material, double unit);
   const std::vector<Transform>& joints(std::size_t skin);
   void count_primitives(std::uint64_t more, const std::string& at);
 

@@ -101,7 +101,8 @@ class Poser {
       read_list(member(nodes_[i], "translation"), parts_[i].translation);
       read_list(member(nodes_[i], "rotation"), parts_[i].rotation);
       read_list(member(nodes_[i], "scale"), parts_[i].scale);
-      weights(nodes_[i], pose_.weights[i]);
+      for (const Json& weight : member(nodes_[i], "weights"))
+        pose_.weights[i].push_back(weight.get<double>());
     }
     if (time) animate(*time);
     place();
@@ -109,16 +110,6 @@ class Poser {
   }
 
  private:
-  void weights(const Json& node, std::vector<double>& result) {
-    const Json& index = member(node, "mesh");
-    if (index.is_null()) return;
-    const Json& mesh = root_["meshes"][index.get<std::size_t>()];
-    result.resize(member(mesh["primitives"][0], "targets").size());
-    const Json& given = member(node, "weights");
-    const Json& list = given.is_null() ? member(mesh, "weights") : given;
-    for (std::size_t i = 0; i < list.size() && i < result.size(); ++i) result[i] = list[i].get<double>();
-  }
-
   void animate(double time) {
     const Json& animations = member(root_, "animations");
     std::set<std::pair<std::size_t, std::string>> moved;
@@ -145,7 +136,14 @@ class Poser {
     const bool known = path == "translation" || path == "rotation" || path == "scale" || path == "weights";
     if (member(target, "node").is_null() || !known) return;
     const auto node = target["node"].get<std::size_t>();
-    const std::size_t values = path == "weights" ? pose_.weights[node].size() : path == "rotation" ? 4 : 3;
+    std::size_t values = path == "rotation" ? 4 : 3;
+    if (path == "weights") {
+      const std::size_t mesh = nodes_[node]["mesh"].get<std::size_t>();
+      values = member(root_["meshes"][mesh]["primitives"][0], "targets").size();
+      weights_ += values;
+      if (weights_ > 16 * buffers_.total())
+        remarks_.fail("/animations", "they move more morph targets than the file has bytes");
+    }
     const Accessor input(root_, sampler["input"].get<std::size_t>(), buffers_, remarks_),
         output(root_, sampler["output"].get<std::size_t>(), buffers_, remarks_);
     const std::vector<double> result =
@@ -194,6 +192,7 @@ class Poser {
   const Json& nodes_;
   std::vector<Parts> parts_;
   Pose pose_;
+  std::uint64_t weights_ = 0;  ///< How many animations have set.
 };
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace lambent::gltf {
 
 struct Pose {
   std::vector<Transform> world_from_node;
-  /// Of each node with a mesh that has morph targets: how much of each. Otherwise empty.
+  /// How much of each morph target a node's mesh has; empty: what the mesh itself says.
   std::vector<std::vector<double>> weights;
 };
 

@@ -39,6 +39,7 @@ PrimitiveReader::PrimitiveReader(const Json& root, const Json& primitive, std::s
       buffers_(buffers),
       remarks_(remarks) {
   positions_ = attribute("POSITION");
+  colors_ = attribute("COLOR_0");
   if (const Json& indices = member(primitive, "indices"); !indices.is_null())
     indices_.emplace(root, indices.get<std::size_t>(), buffers, remarks);
   if (!joints) return;
@@ -93,10 +94,18 @@ Vec3<double> PrimitiveReader::position(std::uint32_t vertex) {
   return is_skinned() ? transform_point(skin_of(vertex), p) : p;
 }
 
+std::array<float, 4> PrimitiveReader::color(std::uint32_t vertex, bool opaque) const {
+  if (!colors_.base) return {1, 1, 1, 1};
+  std::array<float, 4> color{0, 0, 0, 1};
+  for (int c = 0; c < (opaque ? 3 : colors_.base->components()); ++c)
+    color[std::size_t(c)] = float(std::max(colors_.value(vertex, c), 0.0));
+  color[3] = std::min(color[3], 1.f);
+  return color;
+}
+
 Mesh PrimitiveReader::read(const std::vector<std::uint32_t>& vertices, bool opaque) {
   const Attribute normals = attribute("NORMAL"), tangents = attribute("TANGENT"),
-                  colors = attribute("COLOR_0"), uvs = attribute("TEXCOORD_0"),
-                  uvs2 = attribute("TEXCOORD_1");
+                  uvs = attribute("TEXCOORD_0"), uvs2 = attribute("TEXCOORD_1");
   const bool has_tangents = normals.base && tangents.base;  // without normals they have no meaning
   Mesh mesh;
   mesh.vertices.reserve(vertices.size());
@@ -111,22 +120,13 @@ Mesh PrimitiveReader::read(const std::vector<std::uint32_t>& vertices, bool opaq
     }
     if (has_tangents) {
       const Vec3<double> t = unit_or_zero(moved(tangents.vector(vertex)));
-      const double side = tangents.base->value(vertex, 3);
-      if (side != 1 && side != -1)
-        remarks_.fail(at_ + "/attributes/TANGENT",
-                      "the fourth number of vertex " + std::to_string(vertex) + " must be 1 or -1");
+      const double side = tangents.base->value(vertex, 3) < 0 ? -1 : 1;
       // Theirs says where the image's upper edge is, and that is where v grows here.
       mesh.tangents.push_back({float(t.x), float(t.y), float(t.z), float(side)});
     }
     if (uvs.base) mesh.uvs.push_back({float(uvs.value(vertex, 0)), float(1 - uvs.value(vertex, 1))});
     if (uvs2.base) mesh.uvs2.push_back({float(uvs2.value(vertex, 0)), float(1 - uvs2.value(vertex, 1))});
-    if (colors.base) {
-      std::array<float, 4> color{0, 0, 0, 1};
-      for (int c = 0; c < (opaque ? 3 : colors.base->components()); ++c)
-        color[std::size_t(c)] = float(std::max(colors.value(vertex, c), 0.0));
-      color[3] = std::min(color[3], 1.f);
-      mesh.colors.push_back(color);
-    }
+    if (colors_.base) mesh.colors.push_back(color(vertex, opaque));
   }
   return mesh;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The vertices of one primitive of a glTF mesh, morphed and skinned.
 
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -26,6 +27,9 @@ class PrimitiveReader {
   /// no alpha.
   Mesh read(const std::vector<std::uint32_t>& vertices, bool opaque);
   Vec3<double> position(std::uint32_t vertex);
+  /// COLOR_0; white where there is none.
+  bool has_colors() const { return colors_.base.has_value(); }
+  std::array<float, 4> color(std::uint32_t vertex, bool opaque) const;
 
  private:
   /// An attribute with its morph targets.
@@ -48,7 +52,7 @@ class PrimitiveReader {
   const std::vector<Transform>* joints_;
   Buffers& buffers_;
   Remarks& remarks_;
-  Attribute positions_;
+  Attribute positions_, colors_;
   std::optional<Accessor> indices_;
   std::vector<std::pair<Accessor, Accessor>> joint_sets_;  ///< Joints and weights.
 };

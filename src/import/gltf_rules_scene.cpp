@@ -310,6 +310,12 @@ class SceneRules {
                              : path == "rotation"                     ? &rotation_formats
                              : path == "weights"                      ? &scalar_formats
                                                                       : nullptr;
+    if (extension(target, "KHR_animation_pointer").is_object()) {
+      const std::string place = at + "/target/extensions/KHR_animation_pointer";
+      if (path != "pointer")
+        remarks_.error(place, "the path beside it must be 'pointer', not " + in_quotes(path));
+      if (!member(target, "node").is_null()) remarks_.error(place, "must have no 'node' beside it");
+    }
     if (!formats)
       return remarks_.warn(at + "/target/path",
                            in_quotes(path) + " is not supported; the channel is ignored");

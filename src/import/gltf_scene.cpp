@@ -188,10 +188,7 @@ class SceneReader {
     result.name = text(json, "name");
     if (result.name.empty()) result.name = name_of(number);
     if (result.name.empty()) result.name = "light " + std::to_string(model_.lights.size() + 1);
-    for (int copy = 2; is_taken(result.name); ++copy) {
-      const std::string base = result.name.substr(0, result.name.rfind(" #"));
-      result.name = base + " #" + std::to_string(copy);
-    }
+    result.name = light_names_(result.name);
     Rgb color{{1, 1, 1}};
     if (const Json& given = member(json, "color"); !given.is_null())
       for (int i = 0; i < 3; ++i) color[i] = given[std::size_t(i)].get<double>();
@@ -224,10 +221,6 @@ class SceneReader {
     }
     model_.lights.push_back(std::move(result));
   }
-  bool is_taken(const std::string& name) const {
-    return std::any_of(model_.lights.begin(), model_.lights.end(),
-                       [&](const Light& light) { return light.name == name; });
-  }
 
   const Json& root_;
   Remarks& remarks_;
@@ -235,6 +228,7 @@ class SceneReader {
   Pose pose_;
   Meshes meshes_;
   Bounds bounds_;
+  UniqueNames light_names_;
 };
 
 }  // namespace

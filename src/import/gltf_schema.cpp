@@ -427,7 +427,8 @@ class Check {
     for (const auto& [name, value] : all.items()) {
       const std::string place = at / std::string_view(name);
       if (!used_.contains(name)) {
-        remarks_.error(place, "the extension is not declared in extensionsUsed");
+        remarks_.error(place, "the extension is not declared",
+                       "add \"" + name + "\" to the list /extensionsUsed");
         continue;
       }
       if (!value.is_object()) {
