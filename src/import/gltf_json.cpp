@@ -60,8 +60,11 @@ class Builder : public nlohmann::json_sax<Json> {
     key_ = std::move(name);
     return true;
   }
-  bool parse_error(std::size_t position, const std::string&, const Json::exception& error) override {
-    stumbled_at = position == 0 ? 0 : position - 1;
+  bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) override {
+    // `position` is the token's end; bytes that cannot be printed stand in it as <U+0000>.
+    const std::size_t length =
+        token.find("<U+") == std::string::npos ? std::max<std::size_t>(token.size(), 1) : 1;
+    stumbled_at = position - std::min(position, length);
     complaint = error.what();
     // "[json.exception.parse_error.101] parse error at line 3, column 7: syntax error while ..."
     complaint.erase(0, complaint.find("] ") + 2);
