@@ -313,7 +313,8 @@ class DataCheck {
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (!buffers_.has_accessor(i)) continue;
-      bytes += whole(all[i], "count", 0) * std::uint64_t(layout_of(all[i]).size());
+      const Json& counted = member(all[i], "bufferView").is_null() ? all[i]["sparse"] : all[i];
+      bytes += whole(counted, "count", 0) * std::uint64_t(layout_of(all[i]).size());
       if (bytes / most_times > buffers_.total())
         remarks_.fail("/accessors", "together they have more than " + std::to_string(most_times) +
                                         " times the file's bytes");
@@ -343,9 +344,15 @@ class DataCheck {
     const bool floats = accessor.layout().component_type == 5126;
     const Json &least = member(json, "min"), &most = member(json, "max");
     if (!floats && least.is_null() && most.is_null()) return;
+    // Of zeroes with replacements, as morph targets are, one zero says as much as all.
+    const std::vector<std::uint32_t>& replaced = accessor.replaced();
+    const bool all = accessor.has_base();
+    const std::size_t count = all ? accessor.count() : replaced.size();
     for (int c = 0; c < components; ++c) {
-      double low = accessor.raw(0, c), high = low;
-      for (std::size_t i = 0; i < accessor.count(); ++i) {
+      double low = all || replaced.size() == accessor.count() ? accessor.raw(all ? 0 : replaced[0], c) : 0;
+      double high = low;
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = all ? k : replaced[k];
         const double x = accessor.raw(i, c);
         if (!std::isfinite(x))
           return remarks_.error(at, "element " + std::to_string(i) + " is not a finite number");

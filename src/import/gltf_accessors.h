@@ -79,6 +79,9 @@ class Accessor {
   std::size_t count() const { return count_; }
   const Layout& layout() const { return layout_; }
   int components() const { return layout_.components(); }
+  /// Elements that stand elsewhere, growing; those of an accessor without a base are all that is not zero.
+  const std::vector<std::uint32_t>& replaced() const { return replaced_; }
+  bool has_base() const { return data_ != nullptr; }
   /// A component as it is stored.
   double raw(std::size_t element, int component) const;
   /// The same, but what is `normalized` is brought to [0, 1] or [-1, 1].
@@ -95,8 +98,8 @@ class Accessor {
   Layout layout_;
   std::size_t count_ = 0, stride_ = 0;
   bool normalized_ = false;
-  const char* data_ = nullptr;           ///< None: all zero.
-  std::vector<std::uint32_t> replaced_;  ///< Elements that stand elsewhere, growing.
+  const char* data_ = nullptr;  ///< None: all zero.
+  std::vector<std::uint32_t> replaced_;
   const char* replacements_ = nullptr;
 };
 

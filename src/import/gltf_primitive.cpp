@@ -1,6 +1,7 @@
 #include "import/gltf_primitive.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace lambent::gltf {
 
@@ -16,6 +17,9 @@ Vec3<double> normal_under(const Transform& t, const Vec3<double>& n) {
   const Vec3<double> turned = n.x * cross(t.y, t.z) + n.y * cross(t.z, t.x) + n.z * cross(t.x, t.y);
   return determinant(t) < 0 ? -turned : turned;
 }
+
+/// Fits into float; what is out of the scene's reach is said once the model stands in it.
+constexpr double farthest = 1e30;
 
 Vec3<float> to_float(const Vec3<double>& v) { return cast<float>(v); }
 
@@ -89,9 +93,16 @@ Transform PrimitiveReader::skin_of(std::uint32_t vertex) {
   return {factor * sum.x, factor * sum.y, factor * sum.z, factor * sum.translation};
 }
 
+Vec3<double> PrimitiveReader::placed(std::uint32_t vertex, const Transform& skin) {
+  const Vec3<double> p = positions_.vector(vertex), result = is_skinned() ? transform_point(skin, p) : p;
+  if (!(max_abs(result) <= farthest) || !std::isfinite(result.x + result.y + result.z))
+    remarks_.fail(at_ + "/attributes/POSITION",
+                  "vertex " + std::to_string(vertex) + " lies out of reach in its pose");
+  return result;
+}
+
 Vec3<double> PrimitiveReader::position(std::uint32_t vertex) {
-  const Vec3<double> p = positions_.vector(vertex);
-  return is_skinned() ? transform_point(skin_of(vertex), p) : p;
+  return placed(vertex, is_skinned() ? skin_of(vertex) : Transform{});
 }
 
 std::array<float, 4> PrimitiveReader::color(std::uint32_t vertex, bool opaque) const {
@@ -112,8 +123,7 @@ Mesh PrimitiveReader::read(const std::vector<std::uint32_t>& vertices, bool opaq
   for (const std::uint32_t vertex : vertices) {
     const Transform skin = is_skinned() ? skin_of(vertex) : Transform{};
     const auto moved = [&](const Vec3<double>& v) { return is_skinned() ? transform_vector(skin, v) : v; };
-    const Vec3<double> p = positions_.vector(vertex);
-    mesh.vertices.push_back(to_float(is_skinned() ? transform_point(skin, p) : p));
+    mesh.vertices.push_back(to_float(placed(vertex, skin)));
     if (normals.base) {
       const Vec3<double> n = normals.vector(vertex);
       mesh.normals.push_back(to_float(unit_or_zero(is_skinned() ? normal_under(skin, n) : n)));

@@ -44,6 +44,7 @@ class PrimitiveReader {
   };
   Attribute attribute(const char* name);
   Transform skin_of(std::uint32_t vertex);
+  Vec3<double> placed(std::uint32_t vertex, const Transform& skin);
 
   const Json& root_;
   const Json& primitive_;

@@ -60,7 +60,7 @@ class SceneReader {
       if (const Json& mesh = member(nodes[node], "mesh"); !mesh.is_null())
         add_bounds(mesh.get<std::size_t>(), pose_.world_from_node[node]);
     if (nodes.is_null()) return library();
-    if (!bounds_.empty()) meshes_.set_size(std::max(length(bounds_.upper - bounds_.lower), 1e-3));
+    set_size();
     for (const std::size_t node : shown) objects(node);
     for (const std::size_t node : shown) {
       camera(node);
@@ -74,7 +74,7 @@ class SceneReader {
   void library() {
     const Json& meshes = member(root_, "meshes");
     for (std::size_t i = 0; i < meshes.size(); ++i) add_bounds(i, {});
-    if (!bounds_.empty()) meshes_.set_size(std::max(length(bounds_.upper - bounds_.lower), 1e-3));
+    set_size();
     for (std::size_t i = 0; i < meshes.size(); ++i)
       for (const Meshes::Part& part : meshes_.of_mesh(i))
         model_.objects.push_back({model_.shapes[part.shape].name, part.shape, {}});
@@ -103,6 +103,11 @@ class SceneReader {
     }
   }
 
+  void set_size() {
+    const double diagonal = bounds_.empty() ? 1 : length(bounds_.upper - bounds_.lower);
+    meshes_.set_size(std::isfinite(diagonal) ? std::max(diagonal, 1e-3) : 1);
+  }
+
   std::string name_of(std::size_t node) const { return text(root_["nodes"][node], "name"); }
 
   void objects(std::size_t number) {
@@ -129,12 +134,16 @@ class SceneReader {
                     "its transform leaves nothing of a volume; what it shows is left out");
   }
 
+  static bool is_in_reach(const Vec3<double>& p) {
+    return max_abs(p) <= largest_coordinate && p.x == p.x && p.y == p.y && p.z == p.z;
+  }
+
   /// The direction in which a node looks, and what is up for it; false where its transform leaves none.
   bool directions(std::size_t number, Vec3<double>& forward, Vec3<double>& up) {
     const Transform& world = pose_.world_from_node[number];
     const double depth = length(world.z), height = length(world.y);
-    if (!(depth > 0) || !(height > 0) || !std::isfinite(depth) || !std::isfinite(height) ||
-        !(length(cross(world.z, world.y)) > 1e-9 * depth * height))
+    if (!is_in_reach(world.translation) || !(depth > 0) || !(height > 0) || !std::isfinite(depth) ||
+        !std::isfinite(height) || !(length(cross(world.z, world.y)) > 1e-9 * depth * height))
       return false;
     forward = (-1 / depth) * world.z;
     up = (1 / height) * world.y;
@@ -153,7 +162,7 @@ class SceneReader {
     Vec3<double> forward;
     if (!directions(number, forward, camera.up))
       return remarks_.warn(std::string("/nodes") / number,
-                           "its transform leaves the camera no direction; it is left out");
+                           "its transform leaves the camera no place or direction; it is left out");
     camera.eye = pose_.world_from_node[number].translation;
     camera.target = camera.eye + viewing_distance(camera.eye, forward) * forward;
     if (text(json, "type") == "orthographic") {
@@ -197,9 +206,9 @@ class SceneReader {
     const Vec3<double> position = pose_.world_from_node[number].translation;
     const std::string type = text(json, "type");
     Vec3<double> forward, up;
-    if (type != "point" && !directions(number, forward, up))
+    if (type == "point" ? !is_in_reach(position) : !directions(number, forward, up))
       return remarks_.warn(std::string("/nodes") / number,
-                           "its transform leaves the light no direction; it is left out");
+                           "its transform leaves the light no place or direction; it is left out");
     if (type == "point") {
       PointLight light;
       light.position = position, light.color = color, light.intensity = intensity, light.max_distance = range;
