@@ -254,7 +254,31 @@ class ObjReader {
     if (errors_.empty()) add_face(line);
   }
 
+  /// The usual corner, of plain numbers in range. All others go the long way, which has the messages.
+  bool read_plain_corner(std::string_view word, Corner& corner) const {
+    const std::size_t defined[3] = {positions_.size(), uvs_.size(), normals_.size()};
+    std::uint32_t* const parts[3] = {&corner.position, &corner.uv, &corner.normal};
+    const char *at = word.data(), *const end = at + word.size();
+    for (int i = 0; i < 3; ++i) {
+      const char* const begin = at;
+      std::uint64_t number = 0;
+      while (at < end && *at >= '0' && *at <= '9' && at - begin < 18)
+        number = 10 * number + std::uint64_t(*at++ - '0');
+      if (at > begin) {
+        if (number < 1 || number > defined[i]) return false;
+        *parts[i] = std::uint32_t(number - 1);
+      } else if (i != 1) {
+        return false;
+      }
+      if (at == end) return at > begin;
+      if (*at++ != '/') return false;
+    }
+    return false;
+  }
+
   bool read_corner(std::string_view word, Corner& corner) {
+    corner = {none, none, none};
+    if (read_plain_corner(word, corner)) return true;
     corner = {none, none, none};
     const std::size_t a = std::min(word.find('/'), word.size());
     const std::size_t b = a < word.size() ? std::min(word.find('/', a + 1), word.size()) : a;

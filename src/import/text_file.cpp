@@ -197,6 +197,33 @@ bool is_tiny(std::string_view word) {
   return std::int64_t(point) - std::int64_t(first) + exponent < 0;
 }
 
+/// Numbers as most are written, [-]digits[.digits]: where the digits and the power of ten are whole numbers
+/// that double holds, one division rounds them correctly. False for all others.
+bool parse_plain_number(std::string_view word, double& value) {
+  static constexpr double powers[] = {1,    1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                      1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  const char *at = word.data(), *const end = at + word.size();
+  const bool negative = at < end && *at == '-';
+  at += negative;
+  if (end - at > 19) return false;  // so that the digits fit 64 bits
+  std::uint64_t digits = 0;
+  const auto take_digits = [&] {
+    const char* const begin = at;
+    while (at < end && *at >= '0' && *at <= '9') digits = 10 * digits + std::uint64_t(*at++ - '0');
+    return at - begin;
+  };
+  std::ptrdiff_t count = take_digits(), decimals = 0;
+  if (at < end && *at == '.') {
+    ++at;
+    decimals = take_digits();
+    count += decimals;
+  }
+  if (at != end || count == 0 || digits > std::uint64_t(1) << 53) return false;
+  value = double(digits) / powers[decimals];
+  if (negative) value = -value;
+  return true;
+}
+
 using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 FileHandle open_file(const std::string& path) {
@@ -376,6 +403,7 @@ std::optional<double> parse_number(std::string_view word) {
     if (!word.empty() && word[0] == '-') return {};
   }
   double value = 0;
+  if (parse_plain_number(word, value)) return value;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (end != word.data() + word.size() || error == std::errc::invalid_argument) return {};
   if (error == std::errc::result_out_of_range) {
