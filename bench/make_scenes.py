@@ -5,7 +5,8 @@
 
 Writes FOLDER/NAME.yaml for Lambent; with --peers also NAME.pov (POV-Ray), NAME.dat (Tachyon) and NAME.json
 (bench/render_with_cycles.py reads it) for the scenes that are compared. All of them say the same: camera, lights,
-shapes, and materials as alike as the programs allow. Meshes that are there already are not written again.
+shapes, and materials as alike as the programs allow. FOLDER/big.obj is a model file as exporters write them, of a
+million triangles. Meshes that are there already are not written again.
 """
 
 import argparse
@@ -317,6 +318,32 @@ def write_json(scene, size, path):
         json.dump({**scene, "size": list(size)}, file)
 
 
+# ---- a model file, for reading
+
+
+def write_waves(sides, file):
+    """A square of 2 x 2 in waves, cut into sides x sides quadrangles of two triangles each; with everything."""
+    def rows(line):
+        for j in range(sides + 1):
+            file.write("".join(line(i / sides, j / sides) for i in range(sides + 1)))
+
+    def normal(u, v):
+        x, _, z = unit((-0.5 * math.cos(20 * u) * math.cos(17 * v), 1, 0.425 * math.sin(20 * u) * math.sin(17 * v)))
+        return f"vn {x:.4f} {math.sqrt(1 - x * x - z * z):.4f} {z:.4f}\n"
+
+    file.write("o waves\n")
+    rows(lambda u, v: f"v {2 * u - 1:.6f} {0.05 * math.sin(20 * u) * math.cos(17 * v):.6f} {2 * v - 1:.6f}\n")
+    rows(lambda u, v: f"vt {u:.6f} {v:.6f}\n")
+    rows(normal)
+    for j in range(sides):
+        lines = []
+        for i in range(sides):
+            a = j * (sides + 1) + i + 1
+            b, c, d = (f"{k}/{k}/{k}" for k in (a + 1, a + sides + 1, a + sides + 2))
+            lines.append(f"f {a}/{a}/{a} {c} {d}\nf {a}/{a}/{a} {d} {b}\n")
+        file.write("".join(lines))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
@@ -347,6 +374,7 @@ def main():
             write_pov(scene, size, at(name + ".pov"))
             write_dat(scene, size, at(name + ".dat"))
             write_json(scene, size, at(name + ".json"))
+    write_whole(at("big.obj"), lambda file: write_waves(708, file))
     for triangles in options.triangles:
         write_knot(triangles, False)
         write_yaml(knot_scene(triangles), size, at(f"knot_{triangles}.yaml"))

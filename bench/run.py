@@ -57,6 +57,7 @@ class Lambent:
         self.program = os.path.join(build, "lambent")
         self.bare_rays = os.path.join(build, "bench", "bare_rays")
         self.kernels = os.path.join(build, "bench", "kernels_bench")
+        self.big_model = os.path.join(build, "bench", "big_model")
         self.scratch, self.threads = scratch, threads
 
     def render(self, scene, *options, threads=None):
@@ -285,6 +286,19 @@ def layers(bench, lambent, folder, quick):
     return result
 
 
+def big(bench, lambent, folder, quick):
+    """A model file of a million triangles: reading it, building its tree, and the memory of the whole."""
+    bench.say("big model")
+    path = os.path.join(folder, "big.obj")
+    out = os.path.join(lambent.scratch, "big.json")
+    run([lambent.big_model, path, "--json", out, "--runs", "2" if quick else "7"])
+    with open(out, encoding="utf-8") as file:
+        measured = json.load(file)
+    measured["file_bytes"] = os.path.getsize(path)
+    measured["render"] = lambent.render(path)
+    return measured
+
+
 def startup(bench, lambent, folder):
     bench.say("one sphere, whole process")
     out = os.path.join(lambent.scratch, "one_sphere.png")
@@ -313,7 +327,7 @@ def machine(build):
     }
 
 
-PARTS = ("startup", "cases", "layers", "memory", "threads", "others", "curves", "kernels")
+PARTS = ("startup", "big", "cases", "layers", "memory", "threads", "others", "curves", "kernels")
 
 
 class Bench:
@@ -374,6 +388,7 @@ def main():
 
     measure = {
         "startup": lambda: startup(bench, lambent, folder),
+        "big": lambda: big(bench, lambent, folder, options.quick),
         "cases": lambda: compare(bench, lambent, peers, folder, options.quick),
         "layers": lambda: layers(bench, lambent, folder, options.quick),
         "memory": lambda: memory(bench, lambent, folder),
