@@ -241,9 +241,13 @@ CLI::App* add_compare(CLI::App& program, CompareCommand& compare, Shorthands& sh
 }
 
 CLI::App* add_check(CLI::App& program, CheckCommand& check) {
-  CLI::App* command = add_command(program, "check", "Say everything that is wrong with scenes or models",
-                                  "  lambent check scenes/*.yaml");
-  command->add_option("INPUT", check.inputs, "Scenes or models")->required()->type_name("");
+  CLI::App* command =
+      add_command(program, "check", "Say everything that is wrong with scenes or models",
+                  "  lambent check scenes/*.yaml\n"
+                  "  lambent check model.obj      also what is odd about it and its materials");
+  command->add_option("INPUT", check.inputs, "Scenes, models or material libraries")
+      ->required()
+      ->type_name("");
   return command;
 }
 
