@@ -102,9 +102,12 @@ def goals(results):
                      [per_ray[10_000_000] / per_ray[1000]] if 10_000_000 in per_ray else []))
     big = results.get("big")
     if big:
-        for what, side, other in (("a million triangles from OBJ, parse / tinyobjloader's parse", "lambent_parse", "tinyobj_parse"),
-                                  ("the same, tree / Embree's own build", "lambent_build", "embree_build")):
-            rows.append(goal(what, 1.0, [one[side] / one[other] for one in big["runs"]]))
+        def against(side, other):
+            return [one[side] / one[other] for one in big["runs"]]
+
+        rows.append(goal("a million triangles from OBJ, parse / tinyobjloader's parse", 1.0,
+                         against("lambent_parse", "tinyobj_parse")))
+        rows.append(goal("the same, tree / Embree's own build", 1.0, against("lambent_build", "embree_build")))
     layers = {scene: [one["with"] / one["without"] for one in rounds] for scene, rounds in results["layers"].items()}
     dearest = max(layers, key=lambda scene: statistics.median(layers[scene]))
     rows.append(goal(f"`--layers` on / off, the dearest of {', '.join(layers)}: {dearest}", 1.3, layers[dearest]))
