@@ -57,13 +57,6 @@ constexpr IgnoredKey ignored_keys[] = {
     {"map_aat", ""},
 };
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return result;
-}
-
 /// An image as a statement names it.
 struct NamedImage {
   std::string path;

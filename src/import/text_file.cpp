@@ -392,6 +392,13 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  return result;
+}
+
 std::string_view end_of(std::string_view line) {
   while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
   return line.substr(line.size());

@@ -94,6 +94,8 @@ std::string_view next_word(std::string_view& rest);
 void split_words(std::string_view line, std::vector<std::string_view>& words);
 /// `text` without blanks and tabs at both ends.
 std::string_view trim(std::string_view text);
+/// `text` with small letters for the capitals of ASCII.
+std::string lower_case(std::string_view text);
 
 /// The whole word as a finite decimal number, correctly rounded whatever the locale: 1, +1, .5, 5., 1e05,
 /// -2.5E-3. Nothing for anything else: nan, inf, hexadecimal, trailing characters, values beyond double's
