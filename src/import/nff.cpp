@@ -18,9 +18,11 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "import/bare.h"
 #include "import/model.h"
 #include "import/text_file.h"
 #include "scene/triangulate.h"
@@ -104,12 +106,13 @@ std::string to_string(const Wanted& wanted) {
 
 class Reader {
  public:
-  Reader(const std::string& path) : file_(read_text_file(path)), words_(file_) {}
+  Reader(const std::string& path, const Limits& limits)
+      : file_(read_text_file(path)), words_(file_), limits_(limits) {}
 
   Model read() {
     std::vector<Diagnostic> errors;
     constexpr std::size_t most_errors = 20;  // a file that is no NFF at all should not fill the screen
-    while (!words_.ended() && errors.size() < most_errors) {
+    while (!words_.ended() && errors.size() < most_errors && !limit_reached_) {
       try {
         statement();
       } catch (const InputError& error) {
@@ -117,6 +120,7 @@ class Reader {
         skip_to_next_statement();
       }
     }
+    if (limit_reached_) errors.push_back(*std::move(limit_reached_));
     if (errors.empty() && spheres_.empty() && cones_.empty() && mesh_.triangles.empty())
       errors.push_back(error_at(file_, words_.peek(), "the file holds no object",
                                 "a model needs at least one of the statements s, c, p and pp"));
@@ -156,6 +160,12 @@ class Reader {
     else if (word == "c") cone();
     else if (word == "s") sphere();
     else polygon(word == "pp");
+    if (spheres_.size() + cones_.size() + mesh_.triangles.size() > limits_.primitives) {
+      // Not to be collected among others: reading ends here.
+      limit_reached_ = error_at(
+          file_, word,
+          fmt::format("more than {} spheres, cones and triangles, which is the limit", limits_.primitives));
+    }
   }
 
   // ---- words and numbers
@@ -454,6 +464,8 @@ class Reader {
   std::map<std::array<double, 8>, std::uint32_t> material_of_fill_;
   std::optional<std::uint32_t> material_;  // of the objects that follow
   bool flat_patch_warned_ = false;
+  const Limits& limits_;
+  std::optional<Diagnostic> limit_reached_;
   std::vector<Sphere> spheres_;
   std::vector<Cone> cones_;
   Mesh mesh_;
@@ -463,6 +475,9 @@ class Reader {
 
 }  // namespace
 
-Model import_nff(const std::string& path, const ImportOptions&) { return Reader(path).read(); }
+Model import_nff(const std::string& path, const ImportOptions& options) {
+  check_file_size(path, options.limits);
+  return Reader(path, options.limits).read();
+}
 
 }  // namespace lambent

@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <unordered_set>
 
 #include "import/bare.h"
 #include "import/creased_normals.h"
@@ -262,7 +263,8 @@ class HeaderReader {
            usage);
     if (const std::string_view more = next_word(rest); !more.empty())
       fail(more, "unexpected " + in_quotes(more) + " behind the element's count", usage);
-    if (header_.find(name)) fail(name, "a second element " + in_quotes(name));
+    if (!elements_.insert(std::string(name)).second) fail(name, "a second element " + in_quotes(name));
+    properties_.clear();
     header_.elements.push_back({std::string(name), std::uint64_t(*number), {}, trim(line)});
   }
 
@@ -295,8 +297,7 @@ class HeaderReader {
       fail(more, "unexpected " + in_quotes(more) + " behind the property's name");
     Element& element = header_.elements.back();
     property.name = name;
-    for (const Property& other : element.properties)
-      if (other.name == name) fail(name, "a second property " + in_quotes(name));
+    if (!properties_.insert(property.name).second) fail(name, "a second property " + in_quotes(name));
     property.use = use_of(element.name, property);
     if (element.has(property.use)) property.use = Use::skip;  // by another name: the first one counts
     if (property.use == Use::indices && is_float(property.type))
@@ -332,6 +333,7 @@ class HeaderReader {
 
   Header& header_;
   bool has_format_ = false;
+  std::unordered_set<std::string> elements_, properties_;  ///< Names: of all, and of the element at hand.
 };
 
 // ---- the numbers behind it: two sources with the same functions

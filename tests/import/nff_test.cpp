@@ -485,5 +485,25 @@ TEST(NffFiles, OtherDialectsAreRefusedWithTheirPlace) {
   EXPECT_EQ(first_error("tetrahedron.nff"), "1:1: unknown statement 'tet'");
 }
 
+TEST(Nff, Limits) {
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("model.nff"), "f 1 1 1 1 0 1 0 1\ns 0 0 0 1\ns 0 0 1 1\ns 0 0 x 1\n");
+  const auto error = [&](const Limits& limits) {
+    ImportOptions options;
+    options.limits = limits;
+    try {
+      import_nff(folder.file("model.nff"), options);
+    } catch (const InputError& e) {
+      return std::to_string(e.diagnostics().at(0).place.line) + ": " + e.diagnostics()[0].message;
+    }
+    return std::string("none");
+  };
+  Limits limits;
+  limits.primitives = 1;
+  EXPECT_EQ(error(limits), "3: more than 1 spheres, cones and triangles, which is the limit");
+  limits.file_bytes = 10;
+  EXPECT_EQ(error(limits), "0: the file has 48 bytes; the limit is 10");
+}
+
 }  // namespace
 }  // namespace lambent
