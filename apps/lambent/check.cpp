@@ -24,17 +24,17 @@ std::vector<Diagnostic> all_remarks(std::vector<Diagnostic> of_model,
   return of_model;
 }
 
-ExitCode check(const std::string& input) {
+ExitCode check(const std::string& input, const LoadOptions& options) {
   try {
     if (is_material_library(input)) {
-      const std::vector<Diagnostic> odd = lint(input);
+      const std::vector<Diagnostic> odd = lint(input, options.limits);
       report(odd, all);
       print(fmt::format("{}: ok{}\n", input, odd.empty() ? "" : ", " + counted(odd.size(), "warning")));
       return done;
     }
-    const ScenePtr scene = load_scene(input);
+    const ScenePtr scene = load_scene(input, options);
     const SceneSummary summary = summarize(scene);
-    const std::vector<Diagnostic> odd = all_remarks(lint(input), warnings(scene));
+    const std::vector<Diagnostic> odd = all_remarks(lint(input, options.limits), warnings(scene));
     report(odd, all);
     print(fmt::format("{}: ok, {}, {}{}\n", input, counted(summary.objects.size(), "object"),
                       counted(summary.lights.size(), "light"),
@@ -55,7 +55,7 @@ ExitCode check(const std::string& input) {
 
 ExitCode run(const CheckCommand& command) {
   ExitCode worst = done;
-  for (const std::string& input : command.inputs) worst = std::max(worst, check(input));
+  for (const std::string& input : command.inputs) worst = std::max(worst, check(input, command.load));
   return worst;
 }
 

@@ -82,8 +82,10 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
   return command;
 }
 
-/// The shorthands of --set. They come before the --set options, so that these have the last word.
+/// What is said of the scene. The shorthands of --set come before the --set options, so that these have the
+/// last word.
 struct Shorthands {
+  LoadOptions load;
   Settings settings;
   std::vector<std::string> set;
 };
@@ -120,10 +122,111 @@ void add_quiet(CLI::App* command, bool& quiet) {
   command->add_flag("-q,--quiet", quiet, "Say nothing but errors");
 }
 
-Settings settings_of(const Shorthands& shorthands) {
-  Settings settings = shorthands.settings;
-  for (const std::string& setting : shorthands.set) settings.push_back(split_setting(setting));
-  return settings;
+LoadOptions options_of(const Shorthands& shorthands) {
+  LoadOptions options = shorthands.load;
+  options.set = shorthands.settings;
+  for (const std::string& setting : shorthands.set) options.set.push_back(split_setting(setting));
+  return options;
+}
+
+/// "64M" as a number; 0 where it is none, or none that a limit can be.
+std::uint64_t limit_of(std::string_view text) {
+  double factor = 1;
+  if (!text.empty()) {
+    constexpr std::string_view suffixes = "kMG";
+    const std::size_t suffix = suffixes.find(text.back());
+    if (suffix != std::string_view::npos) {
+      factor = std::pow(1000.0, double(suffix + 1));
+      text.remove_suffix(1);
+    }
+  }
+  double number = 0;
+  if (!read_number(text, number) || !(number * factor >= 1) || !(number * factor < 0x1p63)) return 0;
+  return std::uint64_t(number * factor);
+}
+
+/// What reading the input may do, of every command that reads scenes or models.
+void add_reading_options(CLI::App* command, LoadOptions& load) {
+  constexpr const char* group = "Reading";
+  const auto time = [&load](const std::string& text) {
+    double seconds = 0;
+    if (!read_number(text, seconds) || !std::isfinite(seconds))
+      throw usage_error(fmt::format("--time wants a number of seconds, not '{}'", text));
+    load.time = seconds;
+  };
+  command->add_option_function<std::string>("--time", time, "The pose of an animated model, in seconds")
+      ->type_name("T")
+      ->group(group);
+  command
+      ->add_flag("--allow-outside", load.limits.allow_outside,
+                 "Let files name others that lie outside of\ntheir own folder")
+      ->group(group);
+  const auto limit = [&](const std::string& name, std::uint64_t& value, const std::string& description) {
+    const auto read = [name, &value](const std::string& text) {
+      value = limit_of(text);
+      if (value == 0)
+        throw usage_error(fmt::format("{} wants a number, 1 or more, not '{}'", name, text),
+                          "k, M and G are thousands, millions and thousand millions: 64M");
+    };
+    command->add_option_function<std::string>(name, read, description)->type_name("N")->group(group);
+  };
+  limit("--max-pixels", load.limits.pixels,
+        "Refuse larger images (default 268M; k, M and G\nare thousands, ...)");
+  limit("--max-primitives", load.limits.primitives, "Refuse larger models (default 500M)");
+  limit("--max-file-bytes", load.limits.file_bytes, "Refuse larger files (default 8.6G)");
+}
+
+/// "0.2", "0.1,0.2,0.3" (linear) or "#203040" as the scene file says it; the name of an image as it is.
+std::string background_of(const std::string& text) {
+  const std::string end = ending(text);
+  if (end == ".hdr" || end == ".exr" || end == ".png" || end == ".jpg" || end == ".jpeg") return text;
+  const auto wrong = [&] {
+    return usage_error(fmt::format("--background wants a colour or an image, not '{}'", text),
+                       "a colour is a number, r,g,b (linear) or '#rrggbb'; an image ends in .hdr, .exr, .png "
+                       "or .jpg");
+  };
+  if (!text.empty() && text[0] == '#') {
+    if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+      throw wrong();
+    return text;
+  }
+  std::vector<double> values;
+  for (std::size_t begin = 0, stop; begin <= text.size(); begin = stop + 1) {
+    stop = std::min(text.find(',', begin), text.size());
+    double value = 0;
+    if (!read_number(std::string_view(text).substr(begin, stop - begin), value) || !(value >= 0) ||
+        !std::isfinite(value))
+      throw wrong();
+    values.push_back(value);
+  }
+  if (values.size() == 1) return text;
+  if (values.size() != 3) throw wrong();
+  return fmt::format("[{}, {}, {}]", values[0], values[1], values[2]);
+}
+
+/// How a model is shown, of every command that makes a scene of one.
+void add_model_options(CLI::App* command, LoadOptions& load) {
+  constexpr const char* group = "Models";
+  command
+      ->add_option(
+          "--camera", load.camera,
+          "One of the model's cameras, by its name or\nnumber, or a view: three-quarter, front, back,\n"
+          "left, right, top")
+      ->type_name("NAME")
+      ->group(group);
+  command->add_option("--up", load.up, "Which axis points up, y or z (default: as the\nformat has it)")
+      ->type_name("y|z")
+      ->group(group);
+  command
+      ->add_flag_callback(
+          "--no-ground", [&load] { load.ground = false; }, "No floor under the model")
+      ->group(group);
+  command
+      ->add_option_function<std::string>(
+          "--background", [&load](const std::string& text) { load.background = background_of(text); },
+          "A colour (0.2, r,g,b or '#rrggbb') or an image\n(.hdr, .exr, .png, .jpg); of scenes, too")
+      ->type_name("COLOR|FILE")
+      ->group(group);
 }
 
 /// What may be said of the scene on the command line, of every command that renders.
@@ -144,6 +247,8 @@ void add_scene_options(CLI::App* command, Shorthands& shorthands) {
           "Illumination model ('lambent list models')")
       ->type_name("NAME");
   add_set(command, shorthands);
+  add_model_options(command, shorthands.load);
+  add_reading_options(command, shorthands.load);
 }
 
 CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& shorthands) {
@@ -151,6 +256,7 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
       add_command(program, "render", "Render a scene or a model to a picture",
                   "  lambent render scene.yaml\n"
                   "  lambent render bunny.obj -o bunny.png -o bunny.exr --size 800x600\n"
+                  "  lambent render bunny.obj --turntable 36 -o out/%03d.png\n"
                   "  lambent render scene.yaml --samples 16 --set lights.key.point.intensity=4");
   add_input(command, render.input);
   command
@@ -160,6 +266,9 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_scene_options(command, shorthands);
+  add_integer(command, "--turntable", render.turntable, 1,
+              "N pictures, the camera going once around;\n-o then has a place for their numbers, from 0:\n"
+              "out/%04d.png (default: INPUT's name with\n-%04d.png)");
   const auto view = [&shorthands](const std::string& text) {
     shorthands.settings.emplace_back("integrator.view.show", text);
   };
@@ -228,6 +337,8 @@ CLI::App* add_compare(CLI::App& program, CompareCommand& compare, Shorthands& sh
       ->type_name("WxH");
   add_samples(command, shorthands);
   add_set(command, shorthands);
+  add_model_options(command, shorthands.load);
+  add_reading_options(command, shorthands.load);
   add_integer(command, "--columns", compare.columns, 1,
               "Pictures side by side (default: so many that\nthe sheet is near 16:9)");
   command->add_flag("--difference", compare.difference,
@@ -248,14 +359,21 @@ CLI::App* add_check(CLI::App& program, CheckCommand& check) {
   command->add_option("INPUT", check.inputs, "Scenes, models or material libraries")
       ->required()
       ->type_name("");
+  add_reading_options(command, check.load);
   return command;
 }
 
 CLI::App* add_info(CLI::App& program, InfoCommand& info) {
   CLI::App* command = add_command(program, "info", "Say what is in a scene, a model or a picture",
-                                  "  lambent info scene.yaml\n  lambent info picture.exr --json");
-  command->add_option("INPUT", info.input, "A scene, a model, a .png or an .exr")->required()->type_name("");
+                                  "  lambent info scene.yaml\n  lambent info bunny.obj\n"
+                                  "  lambent info picture.exr --json");
+  command
+      ->add_option("INPUT", info.input,
+                   "A scene, a model, or a picture (.png, .exr,\n.jpg, .hdr, .tga, .bmp)")
+      ->required()
+      ->type_name("");
   command->add_flag("--json", info.json, "As JSON");
+  add_reading_options(command, info.load);
   return command;
 }
 
@@ -275,7 +393,7 @@ CLI::App* add_diff(CLI::App& program, DiffCommand& diff) {
   CLI::App* command =
       add_command(program, "diff", "Compare two pictures: exit code 0 if alike, 1 if not",
                   "  lambent diff a.exr b.exr\n  lambent diff a.png b.png -o where.png --tolerance 0.01");
-  command->add_option("A", diff.a, "A picture, .png or .exr")->required()->type_name("");
+  command->add_option("A", diff.a, "A picture (.png, .exr, .jpg, ...)")->required()->type_name("");
   command->add_option("B", diff.b, "Another of the same size")->required()->type_name("");
   command->add_option("-o,--output", diff.output, "Write |A - B| as a picture")->type_name("FILE");
   const auto tolerance = [&](const std::string& text) {
@@ -294,7 +412,11 @@ CLI::App* add_convert(CLI::App& program, ConvertCommand& convert) {
       program, "convert", "Make a scene file of a model, a scene for another\nrenderer, or convert a picture",
       "  lambent convert bunny.obj bunny.yaml\n  lambent convert scene.yaml scene.pov\n"
       "  lambent convert picture.exr picture.png --bits 16");
-  command->add_option("FROM", convert.from, "A scene, a model, a .png or an .exr")->required()->type_name("");
+  command
+      ->add_option("FROM", convert.from,
+                   "A scene, a model, or a picture (.png, .exr,\n.jpg, .hdr, .tga, .bmp)")
+      ->required()
+      ->type_name("");
   command
       ->add_option(
           "TO", convert.to,
@@ -303,6 +425,8 @@ CLI::App* add_convert(CLI::App& program, ConvertCommand& convert) {
       ->type_name("");
   command->add_flag("--force", convert.force, "Overwrite a scene file that is there already");
   add_bits(command, convert.bits);
+  add_model_options(command, convert.load);
+  add_reading_options(command, convert.load);
   return command;
 }
 
@@ -474,15 +598,15 @@ Command parse_command_line(int argc, const char* const* argv) {
   }
 
   if (*is_render) {
-    render.set = settings_of(shorthands);
+    render.load = options_of(shorthands);
     return render;
   }
   if (*is_explain) {
-    explain.set = settings_of(shorthands);
+    explain.load = options_of(shorthands);
     return explain;
   }
   if (*is_compare) {
-    compare.set = settings_of(shorthands);
+    compare.load = options_of(shorthands);
     return compare;
   }
   if (*is_check) return check;

@@ -2,9 +2,10 @@
 // The commands of the program: for each, what the user may say, and the function that does it.
 
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
+
+#include "lambent/lambent.h"
 
 namespace lambent::app {
 
@@ -17,10 +18,12 @@ enum ExitCode : int {
 
 struct RenderCommand {
   std::string input;
-  std::vector<std::string> outputs;  ///< Empty: the input's name with .png, in the current folder.
-  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
-  std::string stats;                                     ///< Empty: none; "-": standard output.
+  /// Empty: the input's name with .png, in the current folder. Of a turntable patterns: see numbered.h.
+  std::vector<std::string> outputs;
+  LoadOptions load;
+  std::string stats;  ///< Empty: none; "-": standard output.
   std::string isa;
+  int turntable = 0;  ///< So many pictures, once around; 0: one, and no turning.
   int threads = 0;
   int tile = 32;
   int bits = 8;
@@ -31,7 +34,7 @@ struct CompareCommand {
   std::string input;
   std::vector<std::string> models;   ///< Empty: all that there are.
   std::vector<std::string> outputs;  ///< Empty: the input's name with -compare.png, in the current folder.
-  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
+  LoadOptions load;
   std::string size;  ///< Of each picture, as the scene file says it; empty: the scene's, or smaller.
   int threads = 0;
   int columns = 0;  ///< 0: chosen to suit.
@@ -42,10 +45,12 @@ struct CompareCommand {
 
 struct CheckCommand {
   std::vector<std::string> inputs;
+  LoadOptions load;
 };
 
 struct InfoCommand {
   std::string input;
+  LoadOptions load;
   bool json = false;
 };
 
@@ -64,6 +69,7 @@ struct DiffCommand {
 
 struct ConvertCommand {
   std::string from, to;
+  LoadOptions load;
   bool force = false;
   int bits = 8;
 };
@@ -75,7 +81,7 @@ struct ExplainCommand {
   std::string format = "text";
   std::string output;  ///< Empty: standard output.
   bool trace = false;
-  std::vector<std::pair<std::string, std::string>> set;  ///< As in LoadOptions.
+  LoadOptions load;
 };
 
 struct RelightCommand {

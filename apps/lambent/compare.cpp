@@ -23,8 +23,6 @@ namespace {
 constexpr int widest_picture = 480;
 constexpr std::size_t most_warnings = 20;
 
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
 std::string default_output(const std::string& input) {
   return std::filesystem::path(input).stem().string() + "-compare.png";
 }
@@ -71,15 +69,16 @@ std::string picture_size(const CompareCommand& command, const SceneSummary& scen
 }
 
 /// Everything that makes the picture of `model`, in the order in which it is set.
-Settings settings_for(const CompareCommand& command, const Entry& model, const std::string& size) {
-  Settings settings = command.set;
+LoadOptions options_for(const CompareCommand& command, const Entry& model, const std::string& size) {
+  LoadOptions options = command.load;
+  auto& settings = options.set;
   settings.emplace_back("image.size", size);
   settings.emplace_back("illumination.model", model.name);
   if (command.own_attenuation) {
     settings.emplace_back("illumination.attenuation", model.attenuation);
     settings.emplace_back("illumination.ambient_attenuation", model.ambient_attenuation);
   }
-  return settings;
+  return options;
 }
 
 /// The materials that name another model than the scene's keep it, and so look alike in all pictures.
@@ -178,6 +177,35 @@ std::string in_shell(const std::string& word) {
   return quoted + "'";
 }
 
+/// The options, but for --set, that `load` comes of.
+std::string words_for(const LoadOptions& load) {
+  const LoadOptions usual;
+  std::string words;
+  const auto add = [&](const std::string& option, const std::string& value) {
+    words += " " + option + " " + in_shell(value);
+  };
+  if (!load.camera.empty()) add("--camera", load.camera);
+  if (!load.up.empty()) add("--up", load.up);
+  if (!load.ground) words += " --no-ground";
+  if (!load.background.empty()) {
+    std::string value = load.background;  // a list in a scene file, r,g,b here
+    if (value[0] == '[')
+      value.erase(
+          std::remove_if(value.begin(), value.end(), [](char c) { return c == '[' || c == ']' || c == ' '; }),
+          value.end());
+    add("--background", value);
+  }
+  if (load.time) add("--time", fmt::format("{}", *load.time));
+  if (load.limits.allow_outside) words += " --allow-outside";
+  const auto add_limit = [&](const std::string& option, std::uint64_t value, std::uint64_t default_value) {
+    if (value != default_value) add(option, std::to_string(value));
+  };
+  add_limit("--max-pixels", load.limits.pixels, usual.limits.pixels);
+  add_limit("--max-primitives", load.limits.primitives, usual.limits.primitives);
+  add_limit("--max-file-bytes", load.limits.file_bytes, usual.limits.file_bytes);
+  return words;
+}
+
 /// The command that takes one pixel of one of the pictures apart: all that was set is set again.
 std::string explain_command(const CompareCommand& command, const Rendered& one, const Image& picture, int x,
                             int y) {
@@ -187,7 +215,8 @@ std::string explain_command(const CompareCommand& command, const Rendered& one, 
   const auto add = [&](const std::string& key, const std::string& value) {
     line += " --set " + in_shell(key + "=" + value);
   };
-  for (const auto& [key, value] : command.set) {
+  line += words_for(command.load);
+  for (const auto& [key, value] : command.load.set) {
     if (key != "image.size") add(key, value);
     // --set comes after --model and --size: what replaces all around them would undo them.
     if (key == "image") add("image.size", fmt::format("[{}, {}]", picture.width, picture.height));
@@ -232,7 +261,7 @@ std::string derivation_of_largest(const CompareCommand& command, const std::vect
   std::string text;
   for (const std::size_t i : {std::size_t(0), most + 1}) {
     const Entry& model = pictures[i].model;
-    const ScenePtr scene = load_scene(command.input, {settings_for(command, model, size)});
+    const ScenePtr scene = load_scene(command.input, options_for(command, model, size));
     text += fmt::format("\n---- {} at {},{}\n\n", model.name, at.x, at.y);
     text += explanation(explain(scene, at.x, at.y));
   }
@@ -246,7 +275,7 @@ ExitCode run(const CompareCommand& command) {
   const std::vector<Entry> models = models_named(command.models);
   if (command.difference && models.size() < 2)
     throw usage_error("--difference wants two models or more", "for example --models conventional,phong");
-  for (const auto& [key, value] : command.set)
+  for (const auto& [key, value] : command.load.set)
     if (key == "illumination.model")
       throw usage_error(
           "--set illumination.model says what --models varies",
@@ -258,7 +287,7 @@ ExitCode run(const CompareCommand& command) {
   const auto start = std::chrono::steady_clock::now();
   std::string size;
   {
-    const ScenePtr scene = load_scene(command.input, {command.set});
+    const ScenePtr scene = load_scene(command.input, command.load);
     const SceneSummary summary = summarize(scene);
     if (summary.integrator.starts_with("view"))
       throw usage_error(
@@ -276,7 +305,7 @@ ExitCode run(const CompareCommand& command) {
   std::vector<Rendered> pictures;
   SceneSummary shown;
   for (const Entry& model : models) {
-    const ScenePtr scene = load_scene(command.input, {settings_for(command, model, size)});
+    const ScenePtr scene = load_scene(command.input, options_for(command, model, size));
     shown = summarize(scene);
     RenderOptions options;
     options.threads = command.threads;

@@ -39,12 +39,16 @@ void must_be_free(const ConvertCommand& command) {
 void scene_from_model(const ConvertCommand& command) {
   must_be_free(command);
   const fs::path folder = fs::absolute(command.to).parent_path();
-  write_text_file(command.to, naming_model_from(folder, command.from, scene_text_of_model(command.from)));
+  LoadOptions options = command.load;
+  if (is_readable_picture(options.background))  // as seen from the scene, too
+    options.background = fs::relative(options.background, folder).generic_string();
+  write_text_file(command.to,
+                  naming_model_from(folder, command.from, scene_text_of_model(command.from, options)));
 }
 
 void export_for_others(const ConvertCommand& command, ExportFormat format) {
   must_be_free(command);
-  const ScenePtr scene = load_scene(command.from);
+  const ScenePtr scene = load_scene(command.from, command.load);
   std::vector<Diagnostic> remarks = warnings(scene);
   const std::string text = export_scene(scene, format, remarks);
   report(remarks, most_remarks);
@@ -55,13 +59,14 @@ void export_for_others(const ConvertCommand& command, ExportFormat format) {
 
 ExitCode run(const ConvertCommand& command) {
   const std::string to = ending(command.to);
-  if (is_image_file(command.from) && is_image_file(command.to)) {
+  const bool picture_given = is_readable_picture(command.from);
+  if (picture_given && is_image_file(command.to)) {
     check_output(command.to);
-    const ReadImage picture = read_image(command.from);
+    const ReadImage picture = read_image(command.from, command.load.limits);
     write_image(command.to, picture.image, picture.metadata, {command.bits, true});
-  } else if (!is_image_file(command.from) && (to == ".yaml" || to == ".yml")) {
+  } else if (!picture_given && (to == ".yaml" || to == ".yml")) {
     scene_from_model(command);
-  } else if (!is_image_file(command.from) && (to == ".pov" || to == ".dat")) {
+  } else if (!picture_given && (to == ".pov" || to == ".dat")) {
     export_for_others(command, to == ".pov" ? ExportFormat::povray : ExportFormat::tachyon);
   } else if (is_image_file(command.to)) {
     throw usage_error(fmt::format("'{}' is not a picture", command.from),

@@ -25,7 +25,7 @@ ExplainFormat format_of(const std::string& name) {
 
 ExitCode run(const ExplainCommand& command) {
   if (!command.output.empty()) check_output(command.output);
-  const ScenePtr scene = load_scene(command.input, {command.set});
+  const ScenePtr scene = load_scene(command.input, command.load);
   report(warnings(scene), most_warnings);
   const DerivationPtr derivation = explain(scene, command.x, command.y);
   std::string text;

@@ -29,6 +29,12 @@ std::string ending(const std::string& path) {
 
 bool is_image_file(const std::string& path) { return ending(path) == ".png" || ending(path) == ".exr"; }
 
+bool is_readable_picture(const std::string& path) {
+  const std::string end = ending(path);
+  return is_image_file(path) || end == ".jpg" || end == ".jpeg" || end == ".hdr" || end == ".tga" ||
+         end == ".bmp";
+}
+
 void check_output(const std::string& path) {
   const auto fail = [&](const std::string& why) {
     throw Failure(fmt::format("cannot write '{}': {}", path, why));

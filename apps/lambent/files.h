@@ -14,8 +14,11 @@ InputError usage_error(std::string message, std::string hint = "");
 /// The ending with its dot, in lower case: ".png"; empty where there is none.
 std::string ending(const std::string& path);
 
-/// Whether `path` ends like a picture that write_image and read_image know.
+/// Whether `path` ends like a picture that write_image knows.
 bool is_image_file(const std::string& path);
+
+/// Whether `path` ends like a picture that read_image knows.
+bool is_readable_picture(const std::string& path);
 
 /// Throws Failure where a file could not be put at `path`: no such folder, a folder or file that may not be
 /// written.

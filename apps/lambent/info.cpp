@@ -49,10 +49,31 @@ Json items_as_json(const std::vector<SceneSummary::Item>& items, bool with_primi
   return json;
 }
 
-std::string scene_as_json(const SceneSummary& summary) {
+Json textures_as_json(const std::vector<SceneSummary::Image>& textures) {
+  Json json = Json::array();
+  for (const SceneSummary::Image& texture : textures)
+    json.push_back({{"name", texture.name},
+                    {"format", texture.format.empty() ? Json(nullptr) : Json(texture.format)},
+                    {"width", texture.width},
+                    {"height", texture.height},
+                    {"channels", texture.channels},
+                    {"color", texture.color},
+                    {"problem", texture.problem.empty() ? Json(nullptr) : Json(texture.problem)}});
+  return json;
+}
+
+Json diagnostics_as_json(const std::vector<Diagnostic>& diagnostics) {
+  Json json = Json::array();
+  for (const Diagnostic& one : diagnostics)
+    json.push_back({{"place", to_string(one.place)}, {"message", one.message}, {"hint", one.hint}});
+  return json;
+}
+
+std::string scene_as_json(const SceneSummary& summary, const std::vector<Diagnostic>& odd) {
   Json json;
   json["name"] = summary.name;
   json["camera"] = summary.camera;
+  json["cameras"] = summary.cameras;
   json["image"] = {{"width", summary.width}, {"height", summary.height}, {"samples", summary.samples}};
   json["model"] = summary.model;
   json["integrator"] = summary.integrator;
@@ -61,9 +82,12 @@ std::string scene_as_json(const SceneSummary& summary) {
   json["stored"] = {{"triangles", summary.triangles}, {"vertices", summary.vertices},
                     {"spheres", summary.spheres},     {"cones", summary.cones},
                     {"discs", summary.discs},         {"planes", summary.planes}};
+  json["shown"] = summary.shown;
   json["objects"] = items_as_json(summary.objects, true);
   json["lights"] = items_as_json(summary.lights, false);
   json["materials"] = items_as_json(summary.materials, false);
+  json["textures"] = textures_as_json(summary.textures);
+  json["warnings"] = diagnostics_as_json(odd);
   return dumped(json);
 }
 
@@ -93,9 +117,47 @@ std::string items_as_text(std::string_view title, const std::vector<SceneSummary
   return text;
 }
 
-std::string scene_as_text(const SceneSummary& summary, int width) {
+/// Textures as the items that the others are.
+std::vector<SceneSummary::Item> texture_items(const std::vector<SceneSummary::Image>& textures) {
+  std::vector<SceneSummary::Item> items;
+  for (const SceneSummary::Image& texture : textures) {
+    SceneSummary::Item& item = items.emplace_back();
+    item.name = texture.name;
+    item.kind = texture.format;
+    if (texture.width > 0)
+      item.detail =
+          fmt::format("{} x {}, {}, {}", texture.width, texture.height,
+                      counted(std::size_t(texture.channels), "channel"), texture.color ? "colour" : "data");
+    if (!texture.problem.empty()) item.detail += (item.detail.empty() ? "" : ", ") + texture.problem;
+  }
+  return items;
+}
+
+std::string warnings_as_text(const std::vector<Diagnostic>& odd, int width) {
+  if (odd.empty()) return "";
+  std::string text = line("warnings", std::to_string(odd.size()), width);
+  const std::size_t shown = std::min(most_items, odd.size());
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::string place = to_string(odd[i].place);
+    text += wrapped((place.empty() ? "" : place + ": ") + odd[i].message, width, 4);
+  }
+  if (shown < odd.size())
+    text += fmt::format("    ... and {} more; --json lists them all\n", odd.size() - shown);
+  return text;
+}
+
+std::string scene_as_text(const SceneSummary& summary, const std::vector<Diagnostic>& odd, int width) {
   std::string text = summary.name + "\n";
   text += line("camera", summary.camera, width);
+  if (!summary.cameras.empty()) {
+    std::string names;
+    const std::size_t shown = std::min(most_items, summary.cameras.size());
+    for (std::size_t i = 0; i < shown; ++i)
+      names += fmt::format("{}{}{}", i == 0 ? "" : ", ", i + 1,
+                           summary.cameras[i].empty() ? "" : " '" + summary.cameras[i] + "'");
+    if (shown < summary.cameras.size()) names += fmt::format(" and {} more", summary.cameras.size() - shown);
+    text += line("cameras", "of the model: " + names, width);
+  }
   text += line("image",
                fmt::format("{} x {}, {} per pixel", summary.width, summary.height,
                            counted(std::size_t(summary.samples), "sample")),
@@ -120,9 +182,12 @@ std::string scene_as_text(const SceneSummary& summary, int width) {
   add(summary.discs, "disc");
   add(summary.planes, "plane");
   text += line("stored", stored.empty() ? "nothing" : stored, width);
+  text += line("shown", counted(summary.shown, "primitive"), width);
   text += items_as_text("objects", summary.objects, width);
   text += items_as_text("lights", summary.lights, width);
   text += items_as_text("materials", summary.materials, width);
+  if (!summary.textures.empty()) text += items_as_text("textures", texture_items(summary.textures), width);
+  text += warnings_as_text(odd, width);
   return text;
 }
 
@@ -157,6 +222,7 @@ ChannelRange range_of(const Image& image, std::size_t channel) {
 std::string image_as_json(const std::string& path, const ReadImage& read) {
   Json json;
   json["file"] = path;
+  json["format"] = read.format;
   json["width"] = read.image.width;
   json["height"] = read.image.height;
   json["channels"] = Json::array();
@@ -187,6 +253,7 @@ std::string with_lines_indented(std::string_view text, int indent) {
 std::string image_as_text(const std::string& path, const ReadImage& read, int width) {
   std::string text = path + "\n";
   text += line("size", fmt::format("{} x {}", read.image.width, read.image.height), width);
+  text += line("format", read.format, width);
   text += line("channels", fmt::format("{}, linear values:", read.image.channels.size()), width);
   for (std::size_t c = 0; c < read.image.channels.size(); ++c) {
     const ChannelRange range = range_of(read.image, c);
@@ -207,13 +274,19 @@ std::string image_as_text(const std::string& path, const ReadImage& read, int wi
 }  // namespace
 
 ExitCode run(const InfoCommand& command) {
-  if (is_image_file(command.input)) {
-    const ReadImage read = read_image(command.input);
+  if (is_readable_picture(command.input)) {
+    const ReadImage read = read_image(command.input, command.load.limits);
     print(command.json ? image_as_json(command.input, read)
                        : harmless(image_as_text(command.input, read, columns(1))));
   } else {
-    const SceneSummary summary = summarize(load_scene(command.input));
-    print(command.json ? scene_as_json(summary) : harmless(scene_as_text(summary, columns(1))));
+    LoadOptions options = command.load;
+    // Of a model one wants to know how large it is itself.
+    const std::string end = ending(command.input);
+    options.ground = end == ".yaml" || end == ".yml" || end == ".json";
+    const ScenePtr scene = load_scene(command.input, options);
+    const SceneSummary summary = summarize(scene);
+    print(command.json ? scene_as_json(summary, warnings(scene))
+                       : harmless(scene_as_text(summary, warnings(scene), columns(1))));
   }
   return done;
 }

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "interrupt.h"
 #include "lambent/lambent.h"
+#include "numbered.h"
 #include "progress.h"
 
 namespace lambent::app {
@@ -28,8 +29,31 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string default_output(const std::string& input, const char* ending) {
-  return std::filesystem::path(input).filename().replace_extension(ending).string();
+std::string default_output(const std::string& input, bool numbered, const std::string& ending) {
+  std::string name = std::filesystem::path(input).stem().string();
+  if (!numbered) return name + ending;
+  for (std::size_t at = 0; (at = name.find('%', at)) != std::string::npos; at += 2) name.insert(at, "%");
+  return name + "-%04d" + ending;
+}
+
+/// The statistics of all pictures from those of each: sums, but for what does not change from one to the
+/// next, or is a mean or the most.
+void add(Stats& sum, const Stats& one, int frames_before) {
+  const auto rays = sum.rays;
+  const auto seconds = sum.seconds;
+  const double samples = sum.samples_per_pixel * frames_before;
+  sum = one;
+  sum.rays.eye += rays.eye;
+  sum.rays.eye_hits += rays.eye_hits;
+  sum.rays.reflection += rays.reflection;
+  sum.rays.refraction += rays.refraction;
+  sum.rays.shadow += rays.shadow;
+  sum.seconds.parse = seconds.parse;
+  sum.seconds.build += seconds.build;
+  sum.seconds.render += seconds.render;
+  sum.seconds.develop += seconds.develop;
+  sum.seconds.write = seconds.write;
+  sum.samples_per_pixel = (samples + one.samples_per_pixel) / (frames_before + 1);
 }
 
 std::string stats_as_json(const Stats& stats) {
@@ -79,51 +103,71 @@ std::string joined(const std::vector<std::string>& names) {
 }  // namespace
 
 ExitCode run(const RenderCommand& command) {
+  const bool turning = command.turntable > 0;
+  constexpr int most_frames = 100'000;
+  if (command.turntable > most_frames)
+    throw usage_error(fmt::format("--turntable makes {} pictures at most", most_frames));
+  const int frames = turning ? command.turntable : 1;
   // Whatever can be known to fail is looked at before the work, not after it.
-  for (const std::string& output : command.outputs) check_image_output(output);
+  const auto names_of = [&](const std::vector<std::string>& outputs) {
+    std::vector<std::vector<std::string>> names(static_cast<std::size_t>(frames));
+    for (const std::string& output : outputs)
+      for (int frame = 0; frame < frames; ++frame) {
+        names[std::size_t(frame)].push_back(turning ? NumberedName(output).with(frame) : output);
+        check_image_output(names[std::size_t(frame)].back());
+      }
+    return names;
+  };
+  std::vector<std::vector<std::string>> outputs = names_of(command.outputs);
   if (!command.stats.empty() && command.stats != "-") check_output(command.stats);
 
   const Stopwatch total, parsing;
-  const ScenePtr scene = load_scene(command.input, {command.set});
-  const double parse_seconds = parsing.seconds();
-  const std::vector<std::string> outputs =
-      command.outputs.empty()
-          ? std::vector{default_output(command.input, wants_layers(scene) ? ".exr" : ".png")}
-          : command.outputs;
-  if (command.outputs.empty()) check_image_output(outputs.front());
-  if (wants_layers(scene) && std::none_of(outputs.begin(), outputs.end(),
+  const ScenePtr scene = load_scene(command.input, command.load);
+  Stats stats;
+  stats.seconds.parse = parsing.seconds();
+  if (command.outputs.empty())
+    outputs = names_of({default_output(command.input, turning, wants_layers(scene) ? ".exr" : ".png")});
+  if (wants_layers(scene) && std::none_of(outputs[0].begin(), outputs[0].end(),
                                           [](const std::string& output) { return ending(output) == ".exr"; }))
     throw usage_error("layers need an EXR; a PNG holds colours alone", "for example -o layers.exr");
   if (!command.quiet) report(warnings(scene), most_warnings);
 
   const Interruptible interruptible;
   Progress progress(command.quiet);
+  int frame = 0;
   RenderOptions options;
   options.threads = command.threads;
   options.tile_size = command.tile;
   options.isa = command.isa;
   options.progress = [&](double share) {
-    progress.update(share);
+    progress.update((frame + share) / frames);
     return !interrupted();
   };
-  RenderResult result = render(scene, options);
+  std::string size;
+  for (; frame < frames; ++frame) {
+    const RenderResult result = render(turned(scene, 360.0 * frame / frames), options);
+    if (result.cancelled || interrupted()) {
+      progress.finish();
+      throw Failure(frame == 0 ? "interrupted; no file was written"
+                               : fmt::format("interrupted; {} of {} pictures are written", frame, frames));
+    }
+    const Stopwatch writing;
+    for (const std::string& output : outputs[std::size_t(frame)])
+      write_image(output, result.image, result.metadata, {command.bits, result.write.png_encoded});
+    add(stats, result.stats, frame);
+    stats.seconds.write += writing.seconds();
+    size = fmt::format("{} x {}", result.image.width, result.image.height);
+  }
   progress.finish();
-  if (result.cancelled || interrupted()) throw Failure("interrupted; no file was written");
-
-  const Stopwatch writing;
-  for (const std::string& output : outputs)
-    write_image(output, result.image, result.metadata, {command.bits, result.write.png_encoded});
-  Stats& stats = result.stats;
-  stats.seconds.parse = parse_seconds;
-  stats.seconds.write = writing.seconds();
   if (command.stats == "-") print(stats_as_json(stats));
   else if (!command.stats.empty()) write_text_file(command.stats, stats_as_json(stats));
 
   if (!command.quiet) {
     const std::uint64_t rays =
         stats.rays.eye + stats.rays.reflection + stats.rays.refraction + stats.rays.shadow + stats.rays.ambient;
-    print_error(fmt::format("{}: {} x {}, {}, {} rays\n", joined(outputs), result.image.width,
-                            result.image.height, duration(total.seconds()), rounded(rays)));
+    const std::string names =
+        frames == 1 ? joined(outputs[0]) : joined(outputs.front()) + " to " + joined(outputs.back());
+    print_error(fmt::format("{}: {}, {}, {} rays\n", names, size, duration(total.seconds()), rounded(rays)));
   }
   return done;
 }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "lambent/limits.h"
+
 namespace lambent {
 
 /// A linear-light picture. Row 0 is the top; `data` holds height * width * channels.size() floats, channels
@@ -39,11 +41,13 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
 
 struct ReadImage {
   Image image;
-  Metadata metadata;
+  Metadata metadata = {};
+  std::string format = {};  ///< "PNG", "JPEG", "Radiance HDR", "OpenEXR", "TGA" or "BMP".
 };
 
-/// Read a PNG (8 or 16 bit, decoded from sRGB to linear) or an EXR. Throws InputError.
-ReadImage read_image(const std::string& path);
+/// Read a picture of any of these formats; its bytes say which. Whole numbers are decoded from sRGB to
+/// linear. Throws InputError.
+ReadImage read_image(const std::string& path, const Limits& limits = {});
 
 /// How two pictures of one size differ. Values are compared as they are in memory: linear.
 struct Difference {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -32,11 +33,25 @@ struct LoadOptions {
   /// Values that replace or add to what the file says, applied in order: {"image.samples", "16"},
   /// {"lights.key.point.intensity", "4"}. Steps of a path are keys; in a list, an element's name or its index
   /// from 0. The value is YAML.
-  std::vector<std::pair<std::string, std::string>> set;
+  std::vector<std::pair<std::string, std::string>> set = {};
+  Limits limits = {};  ///< What reading may cost. Files may be named in the input's own folder and below.
+  std::optional<double> time = {};  ///< Seconds: the pose of animated models. Unset: as their files stand.
+  /// In place of the background: a colour as scene files say it ("0.2", "[0.1, 0.2, 0.3]", "#203040"), or the
+  /// path of an image (.hdr, .exr, .png, .jpg). Empty: none.
+  std::string background = {};
+
+  // Of model files alone; a scene file says these itself, and is refused with any of them.
+
+  /// One of the file's cameras, by its name or its number from 1; or a view of our own that has the whole
+  /// model in the picture: "three-quarter", "front", "back", "left", "right", "top". Empty: the file's first
+  /// camera, else three-quarter.
+  std::string camera = {};
+  std::string up = {};  ///< Which axis points up, "y" or "z". Empty: as the format lets one guess.
+  bool ground = true;   ///< Whether a model that is shown by a view of our own stands on a floor.
 };
 
-/// Load a scene file (.yaml, .yml, .json) or a model file (.obj, .nff), for which camera and lights are
-/// chosen to suit it. Throws InputError with everything that is wrong.
+/// Load a scene file (.yaml, .yml, .json) or a model file, for which camera and lights are chosen to suit it.
+/// Throws InputError with everything that is wrong.
 ScenePtr load_scene(const std::string& path, const LoadOptions& options = {});
 
 /// The same from text. `name` stands for the file in messages; files that the scene names are looked for
@@ -44,8 +59,15 @@ ScenePtr load_scene(const std::string& path, const LoadOptions& options = {});
 ScenePtr parse_scene(std::string_view yaml, const std::string& name = "scene",
                      const LoadOptions& options = {});
 
-/// The scene file that load_scene makes of a model file, as YAML text: a start for a scene of one's own.
-std::string scene_text_of_model(const std::string& path);
+/// The scene file that load_scene makes of a model file, as YAML text: a start for a scene of one's own. It
+/// names the model as if it stood beside it, and an image as `options.background` does; `options.set` does
+/// not count.
+std::string scene_text_of_model(const std::string& path, const LoadOptions& options = {});
+
+/// The same scene, its camera gone so many degrees round a turntable: counter-clockwise as seen from above,
+/// about the camera's `up` through its target, or, where load_scene has made the scene for a model, about the
+/// model's own vertical through the middle of its bounds. Lights stay. By 0 degrees it is the scene itself.
+ScenePtr turned(const ScenePtr& scene, double degrees);
 
 /// Other renderers whose files we write.
 enum class ExportFormat {
@@ -79,6 +101,14 @@ struct SceneSummary {
     std::uint64_t primitives = 0;  ///< Objects: how many primitives. Otherwise 0.
     std::string detail;            ///< "key", "value" pairs for people: "diffuse 0.8 0.1 0.1, shininess 32".
   };
+  struct Image {
+    std::string name;           ///< Its file, or "image 2 of helmet.glb".
+    std::string format;         ///< "PNG"; empty where it cannot be read.
+    int width = 0, height = 0;  ///< Pixels.
+    int channels = 0;           ///< 1 grey, 2 grey and alpha, 3 R G B, 4 R G B alpha.
+    bool color = false;         ///< Whether its numbers are sRGB-encoded colours; if not, they are data.
+    std::string problem;        ///< Why it cannot be read, or empty.
+  };
   std::string name;
   int width = 0, height = 0;
   int samples = 0;                        ///< Of each pixel; with adaptive samples the most that one may get.
@@ -88,7 +118,10 @@ struct SceneSummary {
                      0};  ///< Bounds in the world, infinite planes aside; lower > upper where there are none.
   std::uint64_t triangles = 0, vertices = 0, spheres = 0, cones = 0, discs = 0,
                 planes = 0;  ///< Stored once each, however many objects show them.
+  std::uint64_t shown = 0;   ///< Primitives of all objects: what is shown twice counts twice.
   std::vector<Item> objects, lights, materials;
+  std::vector<Image> textures;
+  std::vector<std::string> cameras;  ///< Of a model file: the names of those it brings, some perhaps empty.
 };
 SceneSummary summarize(const ScenePtr& scene);
 

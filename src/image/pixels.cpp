@@ -36,7 +36,7 @@ const PixelFormat& format_of(const PixelInput& input) {
     throw picture_error(input.name, "the file is too large: " + std::to_string(bytes.size()) + " bytes",
                         "at most " + std::to_string(input.limits.file_bytes) +
                             " bytes are read; --max-file-bytes sets another limit");
-  if (bytes.empty()) throw picture_error(input.name, "the image is empty");
+  if (bytes.empty()) throw picture_error(input.name, "the file is empty");
   for (const PixelFormat* format : formats)
     if (format->recognises(bytes)) return *format;
   const char* known = "PNG, JPEG, Radiance HDR, OpenEXR, TGA and BMP are read";

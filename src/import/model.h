@@ -36,16 +36,18 @@ struct Model {
   std::optional<ImageSettings> image;
   std::optional<Rgb> background;
   ModelId illumination = ModelId::phong;  ///< The model that its materials are written for.
-  bool z_up = false;                      ///< Whether z is up, as far as the format lets one guess; else y.
+  /// Whether its lights are meant by the rules of the Standard Procedural Databases: they do not fade.
+  bool spd_rules = false;
+  bool z_up = false;  ///< Whether z is up, as far as the format lets one guess; else y.
   std::vector<Diagnostic> warnings;
 };
 
 struct ImportOptions {
   /// Seconds: the pose of what is animated. Unset: the pose in which the file has it at rest.
-  std::optional<double> time;
-  Limits limits;  ///< What is beyond is refused.
+  std::optional<double> time = {};
+  Limits limits = {};  ///< What is beyond is refused.
   /// The folder that files which the model names must lie in, or below. Empty: the model's own.
-  std::string root;
+  std::string root = {};
 };
 
 /// Read a model file; its ending (.obj, .nff, .ply, .stl, .gltf, .glb) names the format. Throws InputError with

@@ -442,6 +442,7 @@ class Reader {
   }
 
   Model finish() {
+    model_.spd_rules = true;
     const double n = double(model_.lights.size());
     for (Light& light : model_.lights) std::get<PointLight>(light.light).intensity = 1 / std::sqrt(n);
     const auto add = [&](const char* name, Primitives primitives, std::vector<std::uint32_t> materials) {

@@ -387,6 +387,11 @@ struct Light {
   AnyLight light;
 };
 
+/// What a turntable turns about.
+struct Axis {
+  Vec3<double> point{0, 0, 0}, direction{0, 1, 0};
+};
+
 struct Scene {
   std::string name;  ///< The input's file name, without its folder.
   Camera camera;
@@ -405,6 +410,10 @@ struct Scene {
   std::vector<Shape> shapes;
   std::vector<Object> objects;
   std::vector<Diagnostic> warnings;
+
+  // Of a scene that was made for a model file.
+  std::vector<std::string> model_cameras;  ///< The names of the cameras that it brings.
+  std::optional<Axis> axis;                ///< The model's vertical. Unset: the camera's, through its target.
 };
 
 /// The model by which a material is lit, a number that it gives that model, and how light fades under a

@@ -66,14 +66,42 @@ Vec3<double> direction(const Frame& frame, double azimuth, double elevation) {
   return sin_a * cos_e * frame.right + sin_e * frame.up + cos_a * cos_e * frame.backward;
 }
 
-constexpr double camera_azimuth = 30, camera_elevation = 18, camera_fov = 30;  // degrees
+/// A way to look at a model. The angles are against its front.
+struct NamedView {
+  const char* name;
+  double azimuth, elevation;  ///< Degrees.
+  const char* comment;
+};
+constexpr NamedView views[] = {
+    {"three-quarter", 30, 18, "From three quarters and a little above"},
+    {"front", 0, 0, "From the front"},
+    {"back", 180, 0, "From behind"},
+    {"left", -90, 0, "From the left"},
+    {"right", 90, 0, "From the right"},
+    {"top", 0, 90, "From above"},
+};
+constexpr double camera_fov = 30;  // degrees
+
+/// The model as one stands before it: x to the right, and its vertical up. Where z is up that is -y towards
+/// the viewer, as in the front views of CAD.
+Frame front_of(bool z_up) {
+  if (z_up) return {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
+  return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+}
+
+/// What is up in the picture of a view: the model's vertical, but not where one looks along it.
+Vec3<double> up_in(const NamedView& view, const Frame& front) {
+  return view.elevation == 90 ? -front.backward : front.up;
+}
+
 /// What the model's bounds take of the picture, in its tighter direction: a margin of 10 % remains.
 constexpr double filled = 0.9;
 
-/// The nearest camera from three quarters that has the whole box in its picture, in the middle.
-Camera framing_camera(const Bounds& box, const Ball& ball, double aspect) {
-  const Frame front{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const Frame frame = frame_of(direction(front, camera_azimuth, camera_elevation), front.up);
+/// The nearest camera of that view that has the whole box in its picture, in the middle.
+Camera framing_camera(const NamedView& view, const Frame& front, const Bounds& box, const Ball& ball,
+                      double aspect) {
+  const Vec3<double> up = up_in(view, front);
+  const Frame frame = frame_of(direction(front, view.azimuth, view.elevation), up);
   const auto [sin, cos] = sincos_degrees(camera_fov / 2);
   const double tan_y = filled * sin / cos, tan_x = tan_y * aspect;
   // With the eye at (x, y, d) along (right, up, backward) from the centre, a corner (a, b, c) is in the
@@ -95,7 +123,71 @@ Camera framing_camera(const Bounds& box, const Ball& ball, double aspect) {
   // A single point leaves the distance open.
   camera.eye = camera.target + max(distance, ball.radius) * frame.backward;
   camera.fov = camera_fov;
+  camera.up = up;
   return camera;
+}
+
+InputError wrong_choice(const std::string& path, const std::string& message, const std::string& hint) {
+  Diagnostic diagnostic;
+  diagnostic.place.file = path;
+  diagnostic.message = message;
+  diagnostic.hint = hint;
+  return InputError(diagnostic);
+}
+
+bool is_z_up(const Model& model, const ModelChoices& choices, const std::string& path) {
+  if (choices.up.empty()) return model.z_up;
+  if (choices.up != "y" && choices.up != "z")
+    throw wrong_choice(path, "the axis that points up is y or z, not '" + choices.up + "'",
+                       std::string("without --up it is ") + (model.z_up ? "z" : "y") + " here");
+  return choices.up == "z";
+}
+
+/// The camera that is chosen: one of the file's, or a view, which then has the whole model in its picture.
+struct Chosen {
+  const Camera* own = nullptr;
+  const NamedView* view = nullptr;
+};
+Chosen chosen_camera(const Model& model, const ModelChoices& choices, const std::string& path) {
+  const std::string& wanted = choices.camera;
+  if (wanted.empty())
+    return model.cameras.empty() ? Chosen{nullptr, &views[0]} : Chosen{&model.cameras[0].camera, nullptr};
+  for (const NamedCamera& camera : model.cameras)
+    if (camera.name == wanted) return {&camera.camera, nullptr};
+  std::size_t number = 0;
+  const char* const end = wanted.data() + wanted.size();
+  const auto [stop, error] = std::from_chars(wanted.data(), end, number);
+  if (error == std::errc() && stop == end && number >= 1 && number <= model.cameras.size())
+    return {&model.cameras[number - 1].camera, nullptr};
+  std::string known;
+  for (const NamedView& view : views) {
+    if (view.name == wanted) return {nullptr, &view};
+    known += (known.empty() ? "" : ", ") + std::string(view.name);
+  }
+  constexpr std::size_t most = 20;
+  std::string own;
+  for (std::size_t i = 0; i < model.cameras.size() && i < most; ++i)
+    own += fmt::format("{}{}{}", own.empty() ? "" : ", ", i + 1,
+                       model.cameras[i].name.empty() ? "" : " '" + model.cameras[i].name + "'");
+  if (model.cameras.size() > most) own += fmt::format(" and {} more", model.cameras.size() - most);
+  throw wrong_choice(path, "there is no camera '" + wanted + "'",
+                     (own.empty() ? "the file has none of its own" : "the file has " + own) +
+                         "; views of the whole model are " + known);
+}
+
+/// The bounds of all that the model shows.
+Bounds bounds_of(const Model& model) {
+  Bounds box;
+  const auto add = [&](const Bounds& part) {
+    if (part.empty()) return;
+    box.add(part.lower);
+    box.add(part.upper);
+  };
+  for (const ModelObject& object : model.objects)
+    add(bounds(model.shapes[object.shape], object.world_from_object));
+  if (model.objects.empty())
+    for (const Shape& shape : model.shapes) add(bounds(shape));
+  return box;
 }
 
 /// One of the three lights, as seen from the model.
@@ -117,9 +209,9 @@ constexpr double floor_grey = 0.3;
 constexpr double floor_radius = 60;  // radii of the model
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
-std::string studio_text(ModelId model, const Camera& camera, const Ball& ball, const Rounding& rounded) {
+std::string studio_text(ModelId model, const Camera& camera, const Frame& frame, const Ball& ball,
+                        const Rounding& rounded) {
   const Vec3<double> to_eye = camera.eye - ball.center;
-  const Frame frame = frame_of(camera.eye - camera.target, camera.up);
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(
@@ -146,8 +238,8 @@ std::string studio_text(ModelId model, const Camera& camera, const Ball& ball, c
   return text;
 }
 
-/// The model's own lights, and the equation of the format they come from.
-std::string own_lights_text(const std::vector<Light>& lights) {
+/// The model's own lights, under the rules of the Standard Procedural Databases.
+std::string spd_lights_text(const std::vector<Light>& lights) {
   std::string text;
   const auto out = std::back_inserter(text);
   fmt::format_to(
@@ -163,6 +255,53 @@ std::string own_lights_text(const std::vector<Light>& lights) {
                  "integrator: {{whitted: {{max_depth: 5, colored_shadows: false, trace_black_rays: "
                  "true}}}}\n\nlights:\n");
   for (const Light& light : lights) fmt::format_to(out, "  - {}\n", light_text(light, Wanted::what_differs));
+  return text;
+}
+
+constexpr double own_ambient = 0.05;  // beside the model's own lights
+
+/// What a light brings to a white surface at `p` that faces it, all colours in one number; of a spot on its
+/// axis, as if it shone there.
+double brought_to(const Vec3<double>& p, const AnyLight& light, double least_distance) {
+  return with_light(light, [&](const auto& one) {
+    const double bright =
+        one.intensity * (0.2126 * one.color[0] + 0.7152 * one.color[1] + 0.0722 * one.color[2]);
+    if constexpr (requires { one.position; }) {
+      const double r = max(length(one.position - p), least_distance);
+      return bright / (r * r);
+    } else {
+      return bright;
+    }
+  });
+}
+
+/// The model's own lights, as bright together as a picture needs: files give them in units of their own, and
+/// often far too bright or too dark.
+std::string own_lights_text(const Model& model, const Ball& ball, const Rounding& rounded) {
+  double total = 0;
+  // A light in the very middle would count for all.
+  for (const Light& light : model.lights) total += brought_to(ball.center, light.light, 0.1 * ball.radius);
+  const double scale = total > 0 && std::isfinite(total) ? 1 / total : 1;
+  std::string text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(
+      out,
+      "# The file's own lights, which fade with 1/r^2. Their intensities are the file's times {:.6g}:\n"
+      "# so all together bring 1 to a white surface in the model's middle that faces them.\n",
+      scale);
+  fmt::format_to(out, "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n",
+                 info(model.illumination).name, text_of(attenuation_1_over_r2), text_of(grey(own_ambient)));
+  fmt::format_to(out, "  ambient_attenuation: {}\n  minimum_distance: {}\n",
+                 text_of(AmbientAttenuation::none), text_of(max(rounded(1e-3 * ball.radius), positive.min)));
+  fmt::format_to(out, "\nlights:\n");
+  for (Light light : model.lights) {
+    std::visit(
+        [&](auto& one) {
+          if constexpr (requires { one.intensity; }) one.intensity *= scale;
+        },
+        light.light);
+    fmt::format_to(out, "  - {}\n", light_text(light, Wanted::what_differs));
+  }
   return text;
 }
 
@@ -182,59 +321,69 @@ void check_reach(const Camera& camera, const Ball& ball, const std::string& path
 
 }  // namespace
 
-std::string scene_text(const Model& model, const std::string& path, int width, int height) {
-  Bounds box;
-  for (const Shape& shape : model.shapes) {
-    const Bounds part = bounds(shape);
-    if (part.empty()) continue;
-    box.add(part.lower);
-    box.add(part.upper);
-  }
+ModelScene scene_for(const Model& model, const std::string& path, const ModelChoices& choices) {
+  Bounds box = bounds_of(model);
   const Ball ball = ball_around(box);
   if (box.empty()) box = {ball.center, ball.center};
   const Rounding rounded(ball.radius);
   const bool own_lights = !model.lights.empty();
+  const Frame front = front_of(is_z_up(model, choices, path));
+  const Chosen chosen = chosen_camera(model, choices, path);
 
   ImageSettings image;
-  image.width = width, image.height = height, image.samples = 16;
+  image.width = choices.width, image.height = choices.height, image.samples = 16;
   if (model.image) image = *model.image;
-  Camera camera = model.cameras.empty() ? framing_camera(box, ball, double(image.width) / image.height)
-                                        : model.cameras[0].camera;
-  if (model.cameras.empty()) camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
-  if (model.cameras.empty() || !own_lights) check_reach(camera, ball, path);
+  Camera camera;
+  if (chosen.own != nullptr) {
+    camera = *chosen.own;
+  } else {
+    camera = framing_camera(*chosen.view, front, box, ball, double(image.width) / image.height);
+    camera.eye = rounded(camera.eye), camera.target = rounded(camera.target);
+  }
+  const bool studio = !own_lights;
+  const bool floor = chosen.view != nullptr && studio && choices.ground;
+  if (chosen.view != nullptr || studio) check_reach(camera, ball, path);
 
-  std::string text;
-  const auto out = std::back_inserter(text);
+  ModelScene made;
+  made.axis = {ball.center, front.up};
+  const auto out = std::back_inserter(made.text);
   const std::string file = yaml_quoted(std::filesystem::path(path).filename().string());
   fmt::format_to(out, "# The model {} as `lambent render` shows it: a start for a scene of one's own.\n",
                  file);
   fmt::format_to(out, "lambent: 1\n\n");
   fmt::format_to(out, "# {}\ncamera: {{{}}}\n",
-                 !model.cameras.empty()
-                     ? "The file's own view."
-                     : "From three quarters and a little above; all of the model is in the picture.",
+                 chosen.view != nullptr
+                     ? std::string(chosen.view->comment) + "; all of the model is in the picture."
+                     : "The file's own view.",
                  settings_text(camera, Wanted::what_differs));
   fmt::format_to(out, "image: {{size: [{}, {}], samples: {}, pattern: {}, encoding: {}}}\n", image.width,
                  image.height, image.samples, text_of(image.pattern), text_of(image.encoding));
-  if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
-  else if (model.cameras.empty() && !own_lights)
+  if (!choices.background.empty()) fmt::format_to(out, "background: {}\n", choices.background);
+  else if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
+  else if (chosen.view != nullptr && studio)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));
-  fmt::format_to(
-      out, "\n{}",
-      own_lights ? own_lights_text(model.lights) : studio_text(model.illumination, camera, ball, rounded));
+
+  // Who looks from above still has the lamps stand around the model, not above and below it.
+  const Frame lamps_frame = chosen.view != nullptr && chosen.view->elevation == 90
+                                ? front
+                                : frame_of(camera.eye - camera.target, camera.up);
+  fmt::format_to(out, "\n{}",
+                 studio            ? studio_text(model.illumination, camera, lamps_frame, ball, rounded)
+                 : model.spd_rules ? spd_lights_text(model.lights)
+                                   : own_lights_text(model, ball, rounded));
 
   fmt::format_to(
       out, "\n# The model brings its materials.\nobjects:\n  - {{name: model, mesh: {{file: {}}}}}\n", file);
-  if (model.cameras.empty() && !own_lights) {
+  if (floor) {
     // A hair below the model, so that a flat one is not mixed up with its floor.
-    const Disc floor{rounded({ball.center.x, box.lower.y - 1e-3 * ball.radius, ball.center.z}),
-                     {0, 1, 0},
-                     rounded(floor_radius * ball.radius)};
+    const double lowest = dot(front.up, box.lower), middle = dot(front.up, ball.center);
+    const Disc disc{rounded(ball.center + (lowest - 1e-3 * ball.radius - middle) * front.up), front.up,
+                    rounded(floor_radius * ball.radius)};
     const std::string color = text_of(grey(floor_grey));
     fmt::format_to(out, "  - {{name: floor, disc: {{{}}}, material: {{ambient: {}, diffuse: {}}}}}\n",
-                   settings_text(floor, Wanted::what_differs), color, color);
+                   settings_text(disc, Wanted::what_differs), color, color);
   }
-  return text;
+  return made;
 }
 
 }  // namespace lambent

@@ -169,8 +169,8 @@ std::optional<std::string> Files::find(Reader& reader, const Value& value) const
   } else if (std::filesystem::is_directory(status)) {
     reader.error(*value.node, "cannot open '" + path + "': it is a folder");
   } else if (!import.limits.allow_outside && !lies_below(import.root.empty() ? folder : import.root, path)) {
-    reader.error(*value.node, "'" + path + "' lies outside the scene's folder",
-                 "with --allow-outside a scene may read any file");
+    reader.error(*value.node, "'" + name + "' lies outside of the scene's folder",
+                 "put it there or below, or allow it with --allow-outside");
   } else {
     return path;
   }

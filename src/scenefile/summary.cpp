@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "image/file.h"
+#include "image/pixels.h"
 #include "lambent/lambent.h"
 #include "scene/scene.h"
 #include "scenefile/format.h"
@@ -78,11 +80,40 @@ std::string integrator_summary(const Scene& scene) {
   return scene.view->show == View::rays ? view + ": " + tracing : view;
 }
 
+/// Nothing is decoded here, so nothing has to be held back.
+Limits unlimited() {
+  Limits limits;
+  limits.file_bytes = limits.pixels = ~std::uint64_t{0};
+  return limits;
+}
+
 std::string model_text(const Illumination& illumination) {
   const ModelInfo& model = info(illumination.model);
   return fmt::format("{}, attenuation {}, ambient attenuation {}", model.name,
                      text_of(attenuation_of(illumination, illumination.model)),
                      text_of(ambient_attenuation_of(illumination, illumination.model)));
+}
+
+/// What can be said of a texture; its file's header says it, whether or not its pixels have been read.
+SceneSummary::Image texture_summary(const Texture& texture) {
+  SceneSummary::Image image;
+  image.name = texture.source.name;
+  image.color = texture.srgb;
+  if (!texture.levels.empty()) {
+    image.width = texture.levels[0].width, image.height = texture.levels[0].height;
+    image.channels = texture.channels;
+  }
+  try {
+    const std::string in_file = texture.source.file.empty() ? "" : read_bytes(texture.source.file);
+    const std::string_view bytes =
+        texture.source.bytes ? std::string_view(*texture.source.bytes) : std::string_view(in_file);
+    const PixelSize size = pixel_size(bytes, image.name, unlimited());
+    image.format = size.format;
+    image.width = size.width, image.height = size.height, image.channels = size.channels;
+  } catch (const InputError& error) {
+    image.problem = error.diagnostics().at(0).message;
+  }
+  return image;
 }
 
 }  // namespace
@@ -114,6 +145,7 @@ SceneSummary summarize(const ScenePtr& pointer) {
     text += object.materials.size() == 1 ? "material " + scene.materials[object.materials[0]].name
                                          : std::to_string(object.materials.size()) + " materials";
     if (!is_identity(object.world_from_object)) text += ", transformed";
+    summary.shown += primitive_count(shape);
     summary.objects.push_back(
         {object.name, kind_of(shape), object.place, primitive_count(shape), std::move(text)});
   }
@@ -128,6 +160,8 @@ SceneSummary summarize(const ScenePtr& pointer) {
     summary.materials.push_back(
         {material.name, info(model_of(scene, material)).name, material.place, 0, std::move(text)});
   }
+  for (const Texture& texture : scene.textures) summary.textures.push_back(texture_summary(texture));
+  summary.cameras = scene.model_cameras;
   return summary;
 }
 

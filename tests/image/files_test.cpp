@@ -171,7 +171,9 @@ TEST(ImageFiles, ReadingSaysWhyNot) {
   EXPECT_EQ(thrown_by([&] { read_image(path); }), "InputError: " + path + ": error: the file is empty");
   test::write_text(path, "P6 1 1 255 ...");
   EXPECT_EQ(thrown_by([&] { read_image(path); }),
-            "InputError: " + path + ": error: the file is neither a PNG nor an EXR picture");
+            "InputError: " + path +
+                ": error: this is no image of a known format\n"
+                "    hint: PNG, JPEG, Radiance HDR, OpenEXR, TGA and BMP are read");
   EXPECT_EQ(thrown_by([] { read_image("/dev/zero"); }),
             "InputError: /dev/zero: error: cannot open the picture: it is not a file");
 }

@@ -28,12 +28,23 @@ Model box_model(const Vec3<double>& lower, const Vec3<double>& upper) {
   return model;
 }
 
+std::string scene_text(const Model& model, const std::string& path, int width = 1280, int height = 720) {
+  ModelChoices choices;
+  choices.width = width, choices.height = height;
+  return scene_for(model, path, choices).text;
+}
+
 /// The scene that the text for `model` is read back as.
-Scene scene_of(const Model& model, int width = 1280, int height = 720, const std::string& file = "box.obj") {
+Scene scene_of(const Model& model, const ModelChoices& choices, const std::string& file = "box.obj") {
   LoadedModels models;
   models.emplace(model_key("folder", file), model);
-  return read_scene(parse_yaml(scene_text(model, "folder/" + file, width, height), "scene"), "folder",
+  return read_scene(parse_yaml(scene_for(model, "folder/" + file, choices).text, "scene"), "folder",
                     std::move(models));
+}
+Scene scene_of(const Model& model, int width = 1280, int height = 720, const std::string& file = "box.obj") {
+  ModelChoices choices;
+  choices.width = width, choices.height = height;
+  return scene_of(model, choices, file);
 }
 
 struct Box {
@@ -268,6 +279,7 @@ Model own_model() {
     return image;
   }();
   model.background = Rgb{0.078, 0.361, 0.753};
+  model.spd_rules = true;
   model.lights.push_back({"light 1", {}, PointLight{.position = {4, 3, 2}, .intensity = 0.1234567890123}});
   model.lights.push_back(
       {"light 2", {}, PointLight{.position = {1, -4, 4}, .color = {1, 0.5, 0}, .intensity = 0.3}});
@@ -327,6 +339,152 @@ TEST(Autoscene, FramesAModelThatHasLightsButNoView) {
   EXPECT_EQ(scene.lights.size(), 2u);
   EXPECT_EQ(scene.camera.eye, scene_of(box_model({-1, -1, -1}, {1, 1, 1}), 300, 100).camera.eye);
   EXPECT_EQ(scene.objects.size(), 1u);
+}
+
+TEST(Autoscene, HasViewsFromAllSides) {
+  const Model model = box_model({-1, 0, -1}, {1, 3, 2});
+  const Vec3<double> center{0, 1.5, 0.5};
+  const auto camera = [&](const std::string& name, const std::string& up) {
+    ModelChoices choices;
+    choices.camera = name, choices.up = up;
+    return scene_of(model, choices).camera;
+  };
+  const auto way = [&](const std::string& name, const std::string& up) {
+    const Camera one = camera(name, up);
+    return normalize(one.eye - one.target);
+  };
+  const auto expect = [](const Vec3<double>& a, const Vec3<double>& b) {
+    EXPECT_LT(max_abs(a - b), 1e-4) << a.x << " " << a.y << " " << a.z;
+  };
+  expect(way("front", ""), {0, 0, 1});
+  expect(way("back", ""), {0, 0, -1});
+  expect(way("left", ""), {-1, 0, 0});
+  expect(way("right", ""), {1, 0, 0});
+  expect(way("top", ""), {0, 1, 0});
+  expect(camera("top", "").up, {0, 0, -1});
+  expect(way("front", "z"), {0, -1, 0});
+  expect(way("back", "z"), {0, 1, 0});
+  expect(way("left", "z"), {-1, 0, 0});
+  expect(way("top", "z"), {0, 0, 1});
+  expect(camera("top", "z").up, {0, 1, 0});
+  expect(camera("front", "z").up, {0, 0, 1});
+  expect(camera("three-quarter", "").eye, scene_of(model).camera.eye);
+  for (const char* view : {"front", "back", "left", "right", "top"})
+    expect(cross(way(view, ""), center - camera(view, "").target), {0, 0, 0});
+}
+
+TEST(Autoscene, StandsUprightWhereZIsUp) {
+  Model model = box_model({-1, -2, 0.5}, {1, 2, 3});
+  model.z_up = true;
+  const Scene scene = scene_of(model);
+  EXPECT_EQ(scene.camera.up, (Vec3<double>{0, 0, 1}));
+  EXPECT_GT(scene.camera.eye.z, scene.camera.target.z);
+  const Disc& floor = std::get<std::vector<Disc>>(scene.shapes[scene.objects[1].shape].primitives).at(0);
+  EXPECT_EQ(floor.normal, (Vec3<double>{0, 0, 1}));
+  EXPECT_LT(floor.center.z, 0.5);
+  EXPECT_GT(floor.center.z, 0.49);
+  for (const Light& light : scene.lights) EXPECT_GT(point(light).position.z, 2);
+  // The same model lying on its back, y up: what was (x, y, z) is (x, z, -y).
+  const Model lying = box_model({-1, 0.5, -2}, {1, 3, 2});
+  const Scene other = scene_of(lying);
+  EXPECT_LT(
+      max_abs(Vec3<double>{scene.camera.eye.x, scene.camera.eye.z, -scene.camera.eye.y} - other.camera.eye),
+      1e-4);
+  ModelChoices choices;
+  choices.up = "y";
+  EXPECT_EQ(scene_of(model, choices).camera.up, (Vec3<double>{0, 1, 0}));
+  choices.up = "x";
+  EXPECT_THROW(scene_of(model, choices), InputError);
+}
+
+TEST(Autoscene, ChoosesAmongTheModelsCameras) {
+  Model model = own_model();
+  Camera other = model.cameras[0].camera;
+  other.eye = {9, 9, 9};
+  model.cameras = {{"first", model.cameras[0].camera}, {"2", other}, {"", other}, {"front", other}};
+  const auto eye = [&](const std::string& name) {
+    ModelChoices choices;
+    choices.camera = name;
+    return scene_of(model, choices).camera.eye;
+  };
+  EXPECT_EQ(eye(""), (Vec3<double>{1, 2, 3}));
+  EXPECT_EQ(eye("1"), (Vec3<double>{1, 2, 3}));
+  EXPECT_EQ(eye("first"), (Vec3<double>{1, 2, 3}));
+  EXPECT_EQ(eye("3"), (Vec3<double>{9, 9, 9}));
+  EXPECT_EQ(eye("front"), (Vec3<double>{9, 9, 9}));  // its own name comes first
+  EXPECT_NE(eye("back"), (Vec3<double>{9, 9, 9}));
+  try {
+    eye("frnt");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "folder/box.obj: error: there is no camera 'frnt'\n"
+                 "    hint: the file has 1 'first', 2 '2', 3, 4 'front'; views of the whole model are "
+                 "three-quarter, front, back, left, right, top");
+  }
+  for (const char* wrong : {"0", "5", "-1", "1x"}) EXPECT_THROW(eye(wrong), InputError) << wrong;
+}
+
+TEST(Autoscene, FramesAllPlacedShapes) {
+  Model model = box_model({-1, -1, -1}, {1, 1, 1});
+  ModelObject far;
+  far.world_from_object = translation({100, 0, 0});
+  model.objects = {ModelObject{}, far};
+  const Scene scene = scene_of(model);
+  EXPECT_NEAR(scene.camera.target.x, 50, 5);
+  EXPECT_EQ(scene.objects.size(), 3u);
+}
+
+TEST(Autoscene, ScalesTheModelsOwnLights) {
+  Model model = box_model({-1, -1, -1}, {1, 1, 1});
+  PointLight lamp;
+  lamp.position = {0, 10, 0}, lamp.intensity = 500;
+  DirectionalLight sun;
+  sun.intensity = 15;
+  model.lights = {{"lamp", {}, lamp}, {"sun", {}, sun}};
+  const Scene scene = scene_of(model);
+  EXPECT_EQ(*scene.illumination.attenuation, attenuation_1_over_r2);
+  EXPECT_EQ(scene.illumination.ambient, grey(0.05));
+  // 500 / 10^2 + 15 = 20 becomes 1.
+  EXPECT_NEAR(point(scene.lights[0]).intensity, 500 / 20.0, 1e-9);
+  EXPECT_NEAR(std::get<DirectionalLight>(scene.lights[1].light).intensity, 15 / 20.0, 1e-9);
+  EXPECT_FALSE(scene.whitted.trace_black_rays);
+  EXPECT_EQ(scene.objects.size(), 1u);  // lights may stand below the model: no floor
+}
+
+TEST(Autoscene, LeavesOutTheGround) {
+  ModelChoices choices;
+  choices.ground = false;
+  choices.background = "[0.1, 0.2, 0.3]";
+  const Scene scene = scene_of(box_model({0, 0, 0}, {1, 1, 1}), choices);
+  EXPECT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.background, (Rgb{0.1, 0.2, 0.3}));
+}
+
+TEST(Turned, GoesOnceAroundTheModel) {
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("plate.obj"), "v -5 0 0\nv 5 0 0\nv 5 1 2\nv -5 1 2\nf 1 2 3 4\n");
+  const ScenePtr scene = load_scene(folder.file("plate.obj"));
+  EXPECT_EQ(turned(scene, 0), scene);
+  const Vec3<double> center{0, 0.5, 1};
+  for (const double degrees : {90.0, 180.0, 270.0}) {
+    const Camera &a = scene->camera, &b = turned(scene, degrees)->camera;
+    EXPECT_NEAR(b.eye.y, a.eye.y, 1e-9);
+    EXPECT_NEAR(length(b.eye - center), length(a.eye - center), 1e-9);
+    EXPECT_NEAR(length(b.eye - b.target), length(a.eye - a.target), 1e-9);
+  }
+  // By a quarter, seen from above, from the front (+z) to the right (+x).
+  const Vec3<double> before = scene->camera.eye - center, after = turned(scene, 90)->camera.eye - center;
+  EXPECT_NEAR(after.x, before.z, 1e-9);
+  EXPECT_NEAR(after.z, -before.x, 1e-9);
+}
+
+TEST(Turned, OfASceneGoesAroundTheTarget) {
+  const ScenePtr scene =
+      parse_scene("lambent: 1\ncamera: {eye: [3, 1, 5], target: [3, 1, 2], up: [0, 0.1, 1]}\n");
+  const Camera camera = turned(scene, 180)->camera;
+  EXPECT_EQ(camera.target, (Vec3<double>{3, 1, 2}));
+  EXPECT_NEAR(length(camera.eye - camera.target), 3, 1e-12);
 }
 
 }  // namespace
