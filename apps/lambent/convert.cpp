@@ -17,13 +17,19 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_remarks = 50;
 
+/// The name of `file` in a scene that stands in `folder`.
+std::string seen_from(const fs::path& folder, const fs::path& file) {
+  return fs::relative(fs::absolute(file), folder).generic_string();
+}
+bool lies_outside(const std::string& name) { return name.substr(0, 3) == "../"; }
+
 /// The library's scene names the model as if it stood beside it. Name it as seen from the scene's folder.
 std::string naming_model_from(const fs::path& folder, const fs::path& model, std::string scene) {
   constexpr std::string_view before = "mesh: {file: ", after = "}}";
   const std::size_t begin = scene.find(before) + before.size();
   const std::size_t end = scene.find('\n', begin) - after.size();
   // JSON is YAML, so a name in JSON's quotes is one in YAML's.
-  const nlohmann::json name = fs::relative(model, folder).generic_string();
+  const nlohmann::json name = seen_from(folder, model);
   return scene.replace(begin, end - begin,
                        name.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -40,10 +46,17 @@ void scene_from_model(const ConvertCommand& command) {
   must_be_free(command);
   const fs::path folder = fs::absolute(command.to).parent_path();
   LoadOptions options = command.load;
-  if (is_readable_picture(options.background))  // as seen from the scene, too
-    options.background = fs::relative(options.background, folder).generic_string();
+  if (is_readable_picture(options.background)) options.background = seen_from(folder, options.background);
   write_text_file(command.to,
                   naming_model_from(folder, command.from, scene_text_of_model(command.from, options)));
+  if (lies_outside(seen_from(folder, command.from)) || lies_outside(options.background)) {
+    Diagnostic remark;
+    remark.severity = Severity::warning;
+    remark.place.file = command.to;
+    remark.message = "the scene names a file outside of its own folder";
+    remark.hint = "'lambent render' wants --allow-outside for it; or put the scene beside the model";
+    report(remark);
+  }
 }
 
 void export_for_others(const ConvertCommand& command, ExportFormat format) {

@@ -287,7 +287,7 @@ std::string own_lights_text(const Model& model, const Ball& ball, const Rounding
   fmt::format_to(
       out,
       "# The file's own lights, which fade with 1/r^2. Their intensities are the file's times {:.6g}:\n"
-      "# so all together bring 1 to a white surface in the model's middle that faces them.\n",
+      "# so that together they bring 1 to a white surface in the model's middle that faces them.\n",
       scale);
   fmt::format_to(out, "illumination:\n  model: {}\n  attenuation: {}\n  ambient: {}\n",
                  info(model.illumination).name, text_of(attenuation_1_over_r2), text_of(grey(own_ambient)));

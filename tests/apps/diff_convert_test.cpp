@@ -106,9 +106,13 @@ TEST_F(Files, AModelBecomesASceneThatRendersTheSame) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(read_text(folder.file("scenes/mine/t.yaml")).find("../../models/triangle.obj"),
             std::string::npos);
+  EXPECT_EQ(result.err,
+            "scenes/mine/t.yaml: warning: the scene names a file outside of its own folder\n"
+            "    hint: 'lambent render' wants --allow-outside for it; or put the scene beside the model\n");
   // At the scene's own size: for another, the automatic camera of the model moves, the scene's does not.
   ASSERT_EQ(run({"render", "models/triangle.obj", "--samples", "1", "-o", "a.exr"}).exit_code, 0);
-  ASSERT_EQ(run({"render", "scenes/mine/t.yaml", "--samples", "1", "-o", "b.exr"}).exit_code, 0);
+  ASSERT_EQ(
+      run({"render", "scenes/mine/t.yaml", "--samples", "1", "-o", "b.exr", "--allow-outside"}).exit_code, 0);
   EXPECT_EQ(run({"diff", "a.exr", "b.exr"}).out, "identical: 1280 x 720 pixels, every bit\n");
 }
 

@@ -152,8 +152,11 @@ TEST_F(ModelFiles, FilesOutsideOfTheScenesFolderAreAsked) {
 }
 
 TEST_F(ModelFiles, CompareSaysHowToExplainThem) {
+  write_text(folder.file("shiny.mtl"), "newmtl shiny\nKd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nNs 4\nillum 2\n");
+  write_text(folder.file("shiny.obj"),
+             "mtllib shiny.mtl\nusemtl shiny\n" + read_text(folder.file("wedge.obj")));
   const ProgramResult result =
-      run("compare", {"wedge.obj", "--models", "phong,conventional", "--difference", "--size", "16x12",
+      run("compare", {"shiny.obj", "--models", "phong,blinn_phong", "--difference", "--size", "16x12",
                       "--samples", "1", "--camera", "front", "--background", "0.1,0.2,0.3", "-q"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find(" --camera front --background 0.1,0.2,0.3"), std::string::npos) << result.out;
