@@ -206,7 +206,14 @@ constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
 // What the floor has faded to at its far end, under 1/r, 1/R and the cosine: no edge shows.
 constexpr double background_grey = 0.02;
 constexpr double floor_grey = 0.3;
+constexpr double occlusion_distance = 1;  // radii of the model
 constexpr double floor_radius = 60;  // radii of the model
+
+/// Contacts and folds darken softly; what stands far away does not matter.
+std::string occlusion_text(const Ball& ball, const Rounding& rounded) {
+  return fmt::format("  ambient_occlusion: {{rays: 2, distance: {}}}\n",
+                     text_of(max(rounded(occlusion_distance * ball.radius), positive.min)));
+}
 
 /// The lights that shine on the model from around the camera, and the equation they are meant for.
 std::string studio_text(ModelId model, const Camera& camera, const Frame& frame, const Ball& ball,
@@ -227,6 +234,7 @@ std::string studio_text(ModelId model, const Camera& camera, const Frame& frame,
   fmt::format_to(out, "  ambient_attenuation: {}\n  minimum_distance: {}\n",
                  text_of(AmbientAttenuation::one_over_R),
                  text_of(max(rounded(1e-3 * ball.radius), positive.min)));
+  text += occlusion_text(ball, rounded);
   fmt::format_to(out, "\n# {} radii from the model's centre.\nlights:\n", lamp_distance);
   for (const Lamp& lamp : lamps) {
     const double distance = lamp_distance * ball.radius;
@@ -293,6 +301,7 @@ std::string own_lights_text(const Model& model, const Ball& ball, const Rounding
                  info(model.illumination).name, text_of(attenuation_1_over_r2), text_of(grey(own_ambient)));
   fmt::format_to(out, "  ambient_attenuation: {}\n  minimum_distance: {}\n",
                  text_of(AmbientAttenuation::none), text_of(max(rounded(1e-3 * ball.radius), positive.min)));
+  text += occlusion_text(ball, rounded);
   fmt::format_to(out, "\nlights:\n");
   for (Light light : model.lights) {
     std::visit(

@@ -225,7 +225,7 @@ bool is_material_library(const std::string& path) { return ending_of(path) == ".
 std::vector<Diagnostic> lint(const std::string& path, const Limits& limits) {
   const std::string ending = ending_of(path);
   if (ending != ".obj" && ending != ".mtl") return {};
-  must_exist(path);
+  must_exist(path, limits);
   ImportOptions options;
   options.limits = limits;
   return ending == ".obj" ? lint_obj(path, options) : lint_mtl(path, options);
