@@ -31,36 +31,45 @@ struct Rule {
   bool by_name = false;  ///< An object whose members, whatever their names, are such values.
 
   constexpr Rule needed() const {
-    return with([](Rule& r) { r.must = true; });
+    Rule r = *this;
+    r.must = true;
+    return r;
   }
   constexpr Rule from(double low) const {
-    return with([=](Rule& r) { r.least = low; });
+    Rule r = *this;
+    r.least = low;
+    return r;
   }
   constexpr Rule over(double low) const {
-    return with([=](Rule& r) { r.least = low, r.above = true; });
+    Rule r = *this;
+    r.least = low, r.above = true;
+    return r;
   }
   constexpr Rule to(double high) const {
-    return with([=](Rule& r) { r.most = high; });
+    Rule r = *this;
+    r.most = high;
+    return r;
   }
   constexpr Rule one_of(const char* values) const {
-    return with([=](Rule& r) { r.among = values; });
+    Rule r = *this;
+    r.among = values;
+    return r;
   }
   constexpr Rule some(std::size_t least_count = 1, std::size_t most_count = ~std::size_t{0}) const {
-    return with([=](Rule& r) { r.list = true, r.fewest = least_count, r.largest = most_count; });
+    Rule r = *this;
+    r.list = true, r.fewest = least_count, r.largest = most_count;
+    return r;
   }
   constexpr Rule exactly(std::size_t count) const { return some(count, count); }
   constexpr Rule different() const {
-    return with([](Rule& r) { r.list = r.unique = true; });
+    Rule r = *this;
+    r.list = r.unique = true;
+    return r;
   }
   constexpr Rule any_name() const {
-    return with([](Rule& r) { r.by_name = true; });
-  }
-
- private:
-  template <class Change> constexpr Rule with(Change change) const {
-    Rule result = *this;
-    change(result);
-    return result;
+    Rule r = *this;
+    r.by_name = true;
+    return r;
   }
 };
 
