@@ -35,6 +35,8 @@ const Json nothing;
 /// Builds the value while the parser walks over the text, and remembers where that stumbled.
 class Builder : public nlohmann::json_sax<Json> {
  public:
+  Builder() noexcept(false) {}
+
   Json root;
   std::size_t stumbled_at = 0;
   std::string complaint;  ///< Empty: all is well.

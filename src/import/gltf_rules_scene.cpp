@@ -154,7 +154,7 @@ class SceneRules {
     for (const auto& [base, has] : numbers)
       if (*has.rbegin() + 1 != int(has.size()))
         remarks_.error(at + "/attributes",
-                       base + "_0 to " + base + "_" + std::to_string(*has.rbegin()) + " must all be there");
+                       base + "_0 to _" + std::to_string(*has.rbegin()) + " must all be there");
     if (numbers["JOINTS"].size() != numbers["WEIGHTS"].size())
       remarks_.error(at + "/attributes", "must have as many WEIGHTS as JOINTS");
     if (const Json& indices = member(json, "indices"); !indices.is_null()) {

@@ -1,8 +1,10 @@
 #include "import/tangents.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <unordered_map>
 
 namespace lambent {
@@ -23,23 +25,19 @@ V across(const V& N) {
   return unit_or_zero(perpendicular_part(axis, N));
 }
 
-/// What makes vertices count as one; the numbers' bits.
-struct Key {
-  float numbers[8];
-  bool operator==(const Key& other) const { return std::memcmp(numbers, other.numbers, sizeof numbers) == 0; }
-};
+/// What makes vertices count as one: the bits of their numbers.
+using Key = std::array<std::uint32_t, 8>;
 struct HashOfKey {
   std::size_t operator()(const Key& key) const {
     std::uint64_t h = 0x9e3779b97f4a7c15u;
-    for (const float number : key.numbers) {
-      std::uint32_t bits;
-      std::memcpy(&bits, &number, sizeof bits);
+    for (const std::uint32_t bits : key) {
       h = (h ^ bits) * 0xd6e8feb86659fd93u;
       h ^= h >> 32;
     }
     return std::size_t(h);
   }
 };
+std::uint32_t bits_of(float x) { return std::bit_cast<std::uint32_t>(x + 0); }  // 0 and -0 are alike
 
 /// How the image lies on a triangle.
 struct Frame {
@@ -73,8 +71,8 @@ void make_tangents(Mesh& mesh, int uv_set) {
   std::vector<std::uint32_t> group(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto &p = mesh.vertices[i], &n = mesh.normals[i];
-    // Adding 0 makes 0 of -0.
-    const Key key{{p.x + 0, p.y + 0, p.z + 0, n.x + 0, n.y + 0, n.z + 0, uvs[i].x + 0, uvs[i].y + 0}};
+    const Key key{bits_of(p.x), bits_of(p.y), bits_of(p.z),      bits_of(n.x),
+                  bits_of(n.y), bits_of(n.z), bits_of(uvs[i].x), bits_of(uvs[i].y)};
     group[i] = groups.try_emplace(key, std::uint32_t(groups.size())).first->second;
   }
 

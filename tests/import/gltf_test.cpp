@@ -208,7 +208,7 @@ TEST(Gltf, TheRulesAreChecked) {
   fails("/meshes/0/primitives/0/indices", 0,
         "/meshes/0/primitives/0/indices: its accessor must not be VEC3 of FLOAT");
   fails("/meshes/0/primitives/0/attributes/COLOR", 0, "'COLOR' is no attribute of glTF");
-  fails("/meshes/0/primitives/0/attributes/TEXCOORD_1", 0, "TEXCOORD_0 to TEXCOORD_1 must all be there");
+  fails("/meshes/0/primitives/0/attributes/TEXCOORD_1", 0, "TEXCOORD_0 to _1 must all be there");
   fails("/meshes/0/weights", {1}, "/meshes/0/weights: has 1 elements for 0 morph targets");
   fails("/nodes/0/children", {0}, "/nodes/0: is its own descendant");
   fails("/nodes/0/rotation", {1, 1, 0, 0}, "/nodes/0/rotation: is no unit quaternion");

@@ -693,7 +693,7 @@ TEST(Import, TheEndingNamesTheFormat) {
   EXPECT_FALSE(is_model_file("scene.yaml"));
   EXPECT_FALSE(is_model_file("obj"));
   EXPECT_FALSE(is_model_file(""));
-  EXPECT_EQ(model_file_endings(), ".obj, .nff, .ply, .stl");
+  EXPECT_EQ(model_file_endings(), ".obj, .nff, .ply, .stl, .gltf, .glb");
 }
 
 TEST(Import, AnUnknownEndingIsAnswered) {
@@ -703,7 +703,7 @@ TEST(Import, AnUnknownEndingIsAnswered) {
   } catch (const InputError& error) {
     EXPECT_EQ(printed(error.diagnostics().at(0)),
               "teapot.xyz: error: the ending of 'teapot.xyz' names no model format\n    hint: known endings: "
-              ".obj, .nff, .ply, .stl");
+              ".obj, .nff, .ply, .stl, .gltf, .glb");
   }
 }
 
