@@ -91,7 +91,7 @@ struct Shorthands {
 };
 
 void add_input(CLI::App* command, std::string& input) {
-  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .nff, .ply, .stl, .gltf, .glb)")
+  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .gltf, .glb,\n.ply, .stl, .nff)")
       ->required()
       ->type_name("");
 }

@@ -161,6 +161,8 @@ std::optional<std::string> Files::find(Reader& reader, const Value& value) const
   std::string name;
   if (!reader.text(value, "a file's name", name)) return {};
   const std::string path = model_key(folder, name);
+  // A name on the command line is the user's own, whatever the scene's author had in mind.
+  const bool of_scene = reader.document().sources[std::size_t(value.node->source)].is_file;
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -168,7 +170,8 @@ std::optional<std::string> Files::find(Reader& reader, const Value& value) const
     reader.error(*value.node, "cannot open '" + path + "': " + reason, suggest_file(path));
   } else if (std::filesystem::is_directory(status)) {
     reader.error(*value.node, "cannot open '" + path + "': it is a folder");
-  } else if (!import.limits.allow_outside && !lies_below(import.root.empty() ? folder : import.root, path)) {
+  } else if (of_scene && !import.limits.allow_outside &&
+             !lies_below(import.root.empty() ? folder : import.root, path)) {
     reader.error(*value.node, "'" + name + "' lies outside of the scene's folder",
                  "put it there or below, or allow it with --allow-outside");
   } else {

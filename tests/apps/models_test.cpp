@@ -146,6 +146,8 @@ TEST_F(ModelFiles, FilesOutsideOfTheScenesFolderAreAsked) {
     EXPECT_EQ(run(command, {"inner/a.yaml", "--allow-outside"}).exit_code, 0) << command;
   EXPECT_EQ(run("render", {"inner/a.yaml", "--allow-outside", "-q"}).exit_code, 0);
   EXPECT_EQ(run("convert", {"inner/a.yaml", "a.pov", "--allow-outside"}).exit_code, 0);
+  // What the command line names is the user's own.
+  EXPECT_EQ(run("render", {"inner/a.yaml", "-q", "--set", "objects.2.mesh.file=../wedge.obj"}).exit_code, 0);
   // Below is not outside.
   write_text(folder.file("b.yaml"), small_scene + "  - {mesh: {file: inner/../wedge.obj}}\n");
   EXPECT_EQ(run("check", {"b.yaml"}).exit_code, 0);
