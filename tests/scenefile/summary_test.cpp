@@ -51,7 +51,8 @@ TEST(Summary, TellsOfTexturesWhereverTheyAre) {
 
 TEST(Summary, CountsWhatIsShownByObjects) {
   const ScenePtr scene = parse_scene(
-      "lambent: 1\nobjects:\n  - {sphere: {center: [0, 0, 0], radius: 1}}\n"
+      "lambent: 1\ncamera: {eye: [0, 0, 9], target: [0, 0, 0]}\nobjects:\n  - {sphere: {center: [0, 0, 0], "
+      "radius: 1}}\n"
       "  - {box: {min: [0, 0, 0], max: [1, 1, 1]}}\n  - {box: {min: [2, 0, 0], max: [3, 1, 1]}}\n");
   EXPECT_EQ(summarize(scene).shown, 1u + 12 + 12);
 }
