@@ -264,7 +264,8 @@ class HeaderReader {
     if (const std::string_view more = next_word(rest); !more.empty())
       fail(more, "unexpected " + in_quotes(more) + " behind the element's count", usage);
     if (!elements_.insert(std::string(name)).second) fail(name, "a second element " + in_quotes(name));
-    properties_.clear();
+    // clear() would walk over all the buckets that the last element's names had.
+    std::unordered_set<std::string>().swap(properties_);
     header_.elements.push_back({std::string(name), std::uint64_t(*number), {}, trim(line)});
   }
 

@@ -468,6 +468,14 @@ TEST(Ply, Limits) {
       "model.ply: error: 2 points, and the limit is 1");
 }
 
+TEST(Ply, HeadersWithManyNames) {
+  // In linear time: a set that is cleared for each element took minutes.
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 0\n" + xyz;
+  for (int i = 0; i < 100000; ++i) text += "property char a" + std::to_string(i) + "\n";
+  for (int i = 0; i < 100000; ++i) text += "element b" + std::to_string(i) + " 0\n";
+  EXPECT_EQ(error_of(text + "end_header\n"), "model.ply: error: the file has neither faces nor points");
+}
+
 TEST(Ply, AnyTextIsReadOrRefused) {
   EXPECT_TRUE(rc::check("random words give a sound mesh, a cloud or an error", [] {
     const auto words = *rc::gen::container<std::vector<std::string>>(
