@@ -180,7 +180,7 @@ class Creaser {
 }  // namespace
 
 void add_creased_normals(Mesh& mesh, double crease) {
-  mesh.normals = {};
+  std::vector<Vec3<float>>().swap(mesh.normals);
   if (mesh.vertices.size() + 3 * std::uint64_t(mesh.triangles.size()) >= std::uint64_t(1) << 32) return;
   Creaser(mesh, crease).run();
 }

@@ -565,7 +565,7 @@ class PlyReader {
     }
     Binary source(path_, bytes_, header_.size, header_.format == Format::little_endian);
     read_elements(source);
-    bytes_ = {};
+    std::string().swap(bytes_);  // = {} would keep the memory
     return finish();
   }
 

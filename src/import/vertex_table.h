@@ -55,7 +55,7 @@ template <class Hash> class KeyTable {
   const std::vector<Key>& keys() const { return keys_; }
   /// The keys by their numbers; the table is empty afterwards.
   std::vector<Key> take_keys() {
-    slots_ = {};
+    std::vector<std::uint32_t>().swap(slots_);  // = {} would keep the memory
     return std::exchange(keys_, {});
   }
   std::uint32_t size() const { return std::uint32_t(keys_.size()); }
