@@ -4,7 +4,9 @@
 //
 // All faces of a file become one mesh. Its vertices are the different (position, texture coordinate, normal)
 // triples of the faces' corners. A file without normals (vn) but with smoothing groups (s) gets normals: in
-// each group, the sum of the normals of the faces around a position, each as long as the face is large.
+// each group, the sum of the normals of the faces around a position, each as long as the face is large. A
+// file with neither gets them where faces meet at less than 40 degrees (creased_normals.h); `s off` keeps its
+// faces flat.
 //
 // Colours of vertices (v x y z r g b, no part of the specification) are taken as those who write them mean
 // them: sRGB-encoded, 0 to 1, or 0 to 255 where one is above 1 and all are whole.
@@ -32,6 +34,7 @@ namespace lambent {
 namespace {
 
 constexpr std::uint32_t none = ~0u;
+constexpr double crease = 40;  // degrees
 constexpr std::size_t most_errors = 20;
 constexpr std::size_t most_warnings_of_a_kind = 20;
 /// Of balls and rods, in diagonals of the box around all points: thin, and still some pixels wide.
@@ -228,6 +231,7 @@ class ObjReader {
   void smoothing_group(std::string_view line, std::string_view rest) {
     const std::string_view word = next_word(rest);
     const auto number = parse_integer(word);
+    any_group_ = true;
     if (word == "off") group_ = 0;
     else if (word == "on") group_ = 1;
     else if (number && *number >= 0 && *number < none) group_ = std::uint32_t(*number);
@@ -538,6 +542,7 @@ class ObjReader {
       if (has_normals_) mesh.normals.push_back(normal == none ? Vec3<float>{} : normals_[normal]);
       else if (smooth) mesh.normals.push_back(group == 0 ? Vec3<float>{} : smooth_normal(position, group));
     }
+    if (!has_normals_ && !any_group_) add_creased_normals(mesh, crease);
     return mesh;
   }
 
@@ -697,6 +702,7 @@ class ObjReader {
   std::vector<Run> runs_;
   bool has_uvs_ = false, has_normals_ = false;
   std::uint32_t group_ = 0;  ///< The smoothing group; 0 is off.
+  bool any_group_ = false;   ///< The file says where it is smooth.
 
   std::vector<Used> used_;  ///< First the material of faces before any usemtl, which has no name.
   std::unordered_map<std::string, std::uint32_t> slot_of_name_;

@@ -35,7 +35,8 @@ struct MaterialRecord {
 /// The picture around the scene, by longitude and latitude; its texture has no levels where there is none.
 struct EnvironmentRecord {
   TextureRecord texture{};
-  double turn = 0;  ///< About the y axis, in turns.
+  double turn = 0;    ///< About the vertical, in turns.
+  bool z_up = false;  ///< Otherwise y is up.
 };
 
 /// How light fades under a model: the scene's choice, or the model's own.

@@ -220,9 +220,10 @@ inline Rgb share_through(const Frame& frame, const HitIds<std::int32_t>& ids, st
 }
 
 /// What a ray sees that meets nothing; `spread`: the angle that it covers.
-inline Rgb background_along(const Frame& frame, const Vec3<double>& d, double spread) {
+inline Rgb background_along(const Frame& frame, const Vec3<double>& along, double spread) {
   if (!frame.environment.texture.levels) return frame.background;
   const EnvironmentRecord& e = frame.environment;
+  const Vec3<double> d = e.z_up ? Vec3<double>{along.x, along.z, -along.y} : along;
   // The image's middle lies along -z, before its turn; u grows to the right as seen from inside.
   const double across = sqrt(d.x * d.x + d.z * d.z), round = turns(d.x, -d.z);
   const Vec2<double> uv{0.5 + round + e.turn, 0.5 + 2 * turns(d.y, across)};

@@ -165,6 +165,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   if (scene.background_image) {
     frame.environment.texture = prepared->textures[*scene.background_image];
     frame.environment.turn = scene.background_turn / 360;
+    frame.environment.z_up = scene.background_z_up;
   }
   frame.cones = !scene.textures.empty();
   // A pixel's samples share its width.

@@ -113,8 +113,8 @@ inline constexpr Parameter<FilmSettings> parameters_of<FilmSettings>[] = {
      "exactly; and depth, normals, albedo and who is where. See layers.md."},
 };
 
-/// How much of the ambient light reaches a point: the share of the directions around it, each as much as its cosine with
-/// N counts, in which nothing stands within `distance`.
+/// How much of the ambient light reaches a point: the share of the directions around it, each as much as its
+/// cosine with N counts, in which nothing stands within `distance`.
 struct AmbientOcclusion {
   int rays = 1;
   double distance = 1e10;
@@ -126,7 +126,8 @@ inline constexpr Parameter<AmbientOcclusion> parameters_of<AmbientOcclusion>[] =
      {1, 4096},
      "",
      "Directions that each sample looks in; a pixel's samples look in different ones."},
-    {"distance", &AmbientOcclusion::distance, positive, "scene units", "What stands farther away hides nothing."},
+    {"distance", &AmbientOcclusion::distance, positive, "scene units",
+     "What stands farther away hides nothing."},
 };
 
 /// The choices of the lecture that hold for the whole scene.
@@ -403,7 +404,8 @@ struct Scene {
   Rgb background{0, 0, 0};           ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;
-  double background_turn = 0;  ///< Degrees about the y axis, counter-clockwise from above.
+  double background_turn = 0;    ///< Degrees about the vertical, counter-clockwise from above.
+  bool background_z_up = false;  ///< Its vertical is z, and its middle along +y; else y, and -z.
   std::vector<Light> lights;
   std::vector<Texture> textures;
   std::vector<Material> materials;

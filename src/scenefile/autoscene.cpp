@@ -207,7 +207,24 @@ constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
 constexpr double background_grey = 0.02;
 constexpr double floor_grey = 0.3;
 constexpr double occlusion_distance = 1;  // radii of the model
-constexpr double floor_radius = 60;  // radii of the model
+constexpr double floor_radius = 60;       // radii of the model
+
+/// Whether a material mirrors what is around it.
+bool shines(const Material& material) {
+  return !is_black(material.reflect) ||
+         (material.metallic_roughness &&
+          (material.metallic_roughness->roughness < 0.7 ||
+           std::any_of(material.maps.begin(), material.maps.end(),
+                       [](const MaterialMap& one) { return one.slot == MapSlot::roughness; })));
+}
+
+/// The studio around the model, turned so that its lamps stand where the lights do.
+std::string surroundings_text(const Camera& camera, const Frame& front) {
+  const Vec3<double> way = camera.eye - camera.target;
+  const double turn = std::round(std::atan2(dot(way, front.right), dot(way, front.backward)) * 180 / M_PI);
+  return fmt::format("file: studio{}{}", front.up.z > 0.5 ? ", up: z" : "",
+                     turn != 0 ? ", turn: " + text_of(turn) : "");
+}
 
 /// Contacts and folds darken softly; what stands far away does not matter.
 std::string occlusion_text(const Ball& ball, const Rounding& rounded) {
@@ -369,6 +386,9 @@ ModelScene scene_for(const Model& model, const std::string& path, const ModelCho
                  image.height, image.samples, text_of(image.pattern), text_of(image.encoding));
   if (!choices.background.empty()) fmt::format_to(out, "background: {}\n", choices.background);
   else if (model.background) fmt::format_to(out, "background: {}\n", text_of(*model.background));
+  else if (studio && std::any_of(model.materials.begin(), model.materials.end(), shines))
+    fmt::format_to(out, "# For mirrors to see: lamps that turn with the camera.\nbackground: {{{}}}\n",
+                   surroundings_text(camera, front));
   else if (chosen.view != nullptr && studio)
     fmt::format_to(out, "background: {}\n", text_of(grey(background_grey)));
 

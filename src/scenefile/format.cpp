@@ -213,7 +213,11 @@ Format make_format() {
   f.material = material_section(f.models);
   f.background = section(
       "background", "a picture all around the scene, by longitude and latitude",
-      {required("file", FieldType::file, "The image (HDR, EXR, PNG, ...), looked for beside the scene file."),
+      {required("file", FieldType::file,
+                "The image (HDR, EXR, PNG, ...), looked for beside the scene file; or `studio`, a dark room "
+                "with soft "
+                "lamps that the program brings."),
+       choice("up", {"y", "z"}, "y", "Its vertical; with z its middle lies along +y."),
        with(field("turn", FieldType::number, "0", "A turn about the y axis, counter-clockwise from above."),
             {}, "degrees"),
        with(field("color", FieldType::color, "[1, 1, 1]", "A factor on it."), at_least_zero, "")});

@@ -149,7 +149,8 @@ sequence, turned in each pixel by a hash of its place), more of them where N.L w
 
 constexpr const char* background_text =
     R"(A colour, or an image all around the scene, by longitude and latitude (equirectangular): what rays see that meet nothing,
-eye rays and mirror rays alike. It lights nothing. Its middle lies along -z, u grows to the right as seen from inside, the top row is straight up.
+eye rays and mirror rays alike. It lights nothing. `file: studio` is a dark room with soft lamps, which the program brings and shows
+shining models in. The middle lies along -z, u grows to the right as seen from inside, the top row is straight up.
 
     background: {file: venice_sunset_1k.hdr, turn: 90}
 

@@ -12,6 +12,7 @@
 #include "scenefile/read_objects.h"
 #include "scenefile/reader.h"
 #include "scenefile/shape_settings.h"
+#include "scenefile/studio.h"
 #include "scenefile/textures.h"
 
 namespace lambent {
@@ -303,8 +304,17 @@ void read_background(Reader& reader, const Value& value, const Files& files, Sce
     reader.color(*color, limits(*find(fields, "color")), scene.background);
   if (const Value* turn = values->find("turn"))
     reader.number(*turn, limits(*find(fields, "turn")), scene.background_turn);
-  if (const Value* file = values->find("file"))
+  std::string up;
+  if (const Value* value_of_up = values->find("up"))
+    if (reader.one_of(*value_of_up, {"y", "z"}, up)) scene.background_z_up = up == "z";
+  const Value* file = values->find("file");
+  if (file == nullptr) return;
+  if (file->node->kind == Node::Kind::text && file->node->text == "studio") {
+    scene.background_image = std::uint32_t(scene.textures.size());
+    scene.textures.push_back(studio_texture());
+  } else {
     scene.background_image = read_image_file(reader, *file, true, files, scene.textures);
+  }
 }
 
 void read_materials(Reader& reader, const Value& value, const Files& files, Scene& scene) {
