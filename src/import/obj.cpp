@@ -22,6 +22,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "import/creased_normals.h"
 #include "import/mtl.h"
 #include "import/paths.h"
 #include "import/text_file.h"
