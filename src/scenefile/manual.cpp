@@ -243,8 +243,20 @@ on the way are created; elements of lists are not. The value is YAML.
 constexpr const char* model_files_text = R"(## Model files
 
 `lambent render model.obj` needs no scene: a camera, lights and a floor are chosen to suit the model. `lambent convert model.obj
-scene.yaml` writes that scene down, as a start for one of your own. Files that know a camera and lights of their own, such as
-NFF's, keep them. OBJ files are lit by the model `mtl`, with the `illum` of their materials.
+scene.yaml` writes that scene down, as a start for one of your own. Files that know a camera and lights of their own keep them. What is read:
+
+| ending | up | lit by | |
+|---|---|---|---|
+| `.gltf`, `.glb` | y | `blinn_phong` | glTF 2.0; see gltf.md |
+| `.obj` | y | `mtl` | with MTL and its images; points and lines alone as spheres and cylinders |
+| `.ply` | y | `blinn_phong` | ASCII and binary; without faces a cloud of points, as spheres |
+| `.stl` | z | `blinn_phong` | ASCII and binary |
+| `.nff` | its own | `phong` | by the rules of the Standard Procedural Databases |
+
+`--camera`, `--up`, `--background`, `--no-ground` and `--time` choose otherwise. Meshes without normals of their own (OBJ without smoothing
+groups, PLY, STL) are smooth where their faces meet gently, and creased elsewhere. Around what shines stands a studio (`background`).
+What a file names must lie in its own folder or below, unless `--allow-outside`; `--max-file-bytes`, `--max-pixels` and `--max-primitives` set
+limits on what is read.
 
 ## For other renderers
 

@@ -1,6 +1,7 @@
 #include "scenefile/textures.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <tuple>
 
@@ -29,10 +30,26 @@ std::vector<Diagnostic> told_where_named(const InputError& error, const ImageSou
   return result;
 }
 
+/// The bytes of an image file. A device or a pipe might never end.
+std::string bytes_of(const std::string& path, const Limits& limits) {
+  const auto refuse = [&](const std::string& message, const std::string& hint = {}) {
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = message;
+    diagnostic.hint = hint;
+    throw InputError(diagnostic);
+  };
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) refuse("'" + path + "' is no regular file");
+  if (std::filesystem::file_size(path, error) > limits.file_bytes)
+    refuse("'" + path + "' is larger than files may be", "--max-file-bytes sets the limit");
+  return read_file(path);
+}
+
 void load(Texture& texture, const Limits& limits) {
   const ImageSource& source = texture.source;
   Pixels pixels = source.file.empty() ? read_pixels(*source.bytes, source.name, limits)
-                                      : read_pixels(read_file(source.file), source.file, limits);
+                                      : read_pixels(bytes_of(source.file, limits), source.file, limits);
   if (texture.srgb && !pixels.linear) {
     texture.decoded.resize(256);
     for (int i = 0; i < 256; ++i) texture.decoded[std::size_t(i)] = float(linear_from_srgb(i / 255.0));
