@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/uniform_material.h"
+
 namespace lambent {
 
 void Remarks::add(const Place& place, const std::string& rest) {
@@ -35,6 +37,16 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
     remarks.add({},
                 "is told by its command line how many rays to send through a pixel; the scene's samples are "
                 "left out");
+  if (scene.background_image)
+    remarks.add({}, "is not given the image around the scene; its factor stands for it");
+  if (scene.illumination.occlusion)
+    remarks.add({}, "is not told of ambient occlusion; ambient light is everywhere");
+  for (const Object& object : scene.objects) {
+    const Mesh* mesh = std::get_if<Mesh>(&scene.shapes[object.shape].primitives);
+    if (mesh && !mesh->colors.empty())
+      remarks.add(object.place, "is not given the colours of vertices; " + called("object", object.name) +
+                                    " has those of its materials");
+  }
   for (const Light& light : scene.lights) {
     const auto* point = std::get_if<PointLight>(&light.light);
     const auto* spot = std::get_if<SpotLight>(&light.light);
@@ -43,10 +55,14 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
   }
 }
 
-Finish finish_of(const Scene& scene, const Material& material, Remarks& remarks) {
+Finish finish_of(const Scene& scene, const Material& painted, Remarks& remarks) {
+  const Material material = uniform_material(painted);
   const ModelId model = model_of(scene, material);
   const std::string who = called("material", material.name);
   const auto remark = [&](const std::string& rest) { remarks.add(material.place, rest); };
+  if (!material.maps.empty()) remark("is not given images; " + who + " is written without its maps");
+  if (material.alpha == Alpha::mask) remark("is not given cut-outs; " + who + " is there everywhere");
+  if (material.one_sided) remark("sees both sides of everything; " + who + " is one-sided here");
   const bool highlight = !is_black(material.specular);
   const std::string model_name = info(model).name;
   const bool ambient_fades = ambient_attenuation_of(scene.illumination, model) != AmbientAttenuation::none;

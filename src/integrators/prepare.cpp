@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "scene/uniform_material.h"
 
 namespace lambent {
 
@@ -60,26 +61,12 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   return record;
 }
 
-/// As it is where nothing is painted on it.
-MaterialRecord material_record(const MaterialRecord& before) {
-  MaterialRecord record = before;
-  if (record.is_rough) {
-    const LectureMaterial<double, Rgb> lecture = lecture_material(record.rough);
-    record.ambient = lecture.ka, record.diffuse = lecture.kd, record.specular = lecture.ks;
-    record.reflect = lecture.reflect, record.transmit = lecture.transmit, record.shininess = lecture.n;
-    record.lobe = 2 * record.rough.roughness * record.rough.roughness;
-  }
-  // A mask that is the same everywhere lets all through or nothing: is_gap() sees to that.
-  if (record.alpha == Alpha::blend && record.opacity < 1) {
-    for (Rgb* color : {&record.ambient, &record.diffuse, &record.specular, &record.emission, &record.reflect,
-                       &record.transmit})
-      *color = record.opacity * *color;
-    record.transmit = record.transmit + grey(1 - record.opacity);
-  }
-  if (!record.painted) {
-    record.reflects = !is_black(record.reflect);
-    record.transmits = !is_black(record.transmit);
-  }
+/// As it is where nothing is painted on it; `before`: as painting begins.
+MaterialRecord material_record(const Scene& scene, const Material& material, const MaterialRecord& before) {
+  MaterialRecord record = unpainted(scene, uniform_material(material));
+  record.maps = nullptr;  // the copy's
+  if (before.is_rough) record.lobe = 2 * before.rough.roughness * before.rough.roughness;
+  if (before.painted) record.reflects = before.reflects, record.transmits = before.transmits;
   return record;
 }
 
@@ -151,7 +138,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
   for (const Material& material : scene.materials) {
     prepared->unpainted.push_back(unpainted(scene, material));
-    prepared->materials.push_back(material_record(prepared->unpainted.back()));
+    prepared->materials.push_back(material_record(scene, material, prepared->unpainted.back()));
   }
   note_vertex_colors(scene, prepared->materials);
   frame.materials = prepared->materials.data();

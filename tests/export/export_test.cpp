@@ -133,6 +133,22 @@ objects:
   EXPECT_EQ(out.count("\nSPHERE "), 2);
 }
 
+TEST(Export, MetalAndOpacityAreWrittenInTheLecturesNumbers) {
+  // A metal as rough as can be is Lambert's: diffuse 0.5; half of it is there, the rest shows through.
+  const auto out = exported(head + R"(
+illumination: {model: conventional, ambient: 0, ambient_occlusion: {}}
+background: {file: studio}
+materials: [{name: chalk, opacity: 0.5, one_sided: true, metallic_roughness: {base_color: 0.5}}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: chalk}]
+)",
+                            ExportFormat::povray);
+  EXPECT_NE(out.text.find("transmit 0.5"), std::string::npos) << out.text;
+  EXPECT_NE(out.text.find("color rgb <0.5, 0.5, 0.5>"), std::string::npos) << out.text;  // 0.25 of the 0.5 left
+  EXPECT_TRUE(out.says("image around the scene"));
+  EXPECT_TRUE(out.says("ambient occlusion"));
+  EXPECT_TRUE(out.says("'chalk' is one-sided"));
+}
+
 TEST(Export, NamesCannotBreakOutOfTheirComments) {
   const std::string yaml = head + R"(
 materials: [{name: "a\nsphere { 0, 1 }", diffuse: 0.5}]

@@ -1,0 +1,29 @@
+#include "scene/uniform_material.h"
+
+#include "illumination/metallic_roughness.h"
+
+namespace lambent {
+
+Material uniform_material(const Material& material) {
+  Material out = material;
+  // What is merely not opaque does not bend light.
+  if (is_black(out.transmit)) out.ior = 1;
+  if (const auto& m = material.metallic_roughness) {
+    const auto lecture = lecture_material(MetallicRoughnessOf<double, Rgb>{
+        m->base_color, m->metallic, m->roughness, m->specular, m->specular_color, m->ior, m->transmission,
+        m->clearcoat, m->clearcoat_roughness});
+    out.ambient = lecture.ka, out.diffuse = lecture.kd, out.specular = lecture.ks;
+    out.reflect = lecture.reflect, out.transmit = lecture.transmit, out.shininess = lecture.n;
+    out.ior = 1;  // thin, as KHR_materials_transmission has it
+    out.metallic_roughness.reset();
+  }
+  if (out.alpha == Alpha::blend && out.opacity < 1) {
+    for (Rgb* color : {&out.ambient, &out.diffuse, &out.specular, &out.emission, &out.reflect, &out.transmit})
+      *color = out.opacity * *color;
+    out.transmit = out.transmit + grey(1 - out.opacity);
+    out.opacity = 1;
+  }
+  return out;
+}
+
+}  // namespace lambent
