@@ -26,7 +26,8 @@ void describe(const Scene& scene, const PreparedFrame& prepared, Stats& stats) {
     if (const auto* mesh = std::get_if<Mesh>(&shape.primitives)) {
       bytes.vertices += bytes_of(mesh->vertices);
       bytes.normals += bytes_of(mesh->normals);
-      bytes.uvs += bytes_of(mesh->uvs);
+      bytes.uvs +=
+          bytes_of(mesh->uvs) + bytes_of(mesh->uvs2) + bytes_of(mesh->colors) + bytes_of(mesh->tangents);
       bytes.indices += bytes_of(mesh->triangles);
     } else {
       std::visit(
@@ -36,8 +37,11 @@ void describe(const Scene& scene, const PreparedFrame& prepared, Stats& stats) {
           shape.primitives);
     }
   }
-  bytes.placed = bytes_of(world.placed_points) + bytes_of(world.placed_spheres) +
-                 bytes_of(world.placed_cones) + bytes_of(world.placed_discs) + bytes_of(world.placed_planes) +
+  for (const Texture& texture : scene.textures)
+    bytes.textures += bytes_of(texture.bytes) + bytes_of(texture.floats);
+  bytes.placed = bytes_of(world.placed_points) + bytes_of(world.placed_tangents) +
+                 bytes_of(world.placed_spheres) + bytes_of(world.placed_cones) +
+                 bytes_of(world.placed_discs) + bytes_of(world.placed_planes) +
                  bytes_of(world.placed_numbers);
   bytes.nodes = bytes_of(world.nodes);
   bytes.refs = bytes_of(world.refs) + bytes_of(world.leaf_spheres);

@@ -91,7 +91,8 @@ struct Shorthands {
 };
 
 void add_input(CLI::App* command, std::string& input) {
-  command->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .gltf, .glb,\n.ply, .stl, .nff)")
+  command
+      ->add_option("INPUT", input, "A scene (.yaml, .json) or a model (.obj, .gltf, .glb,\n.ply, .stl, .nff)")
       ->required()
       ->type_name("");
 }
@@ -102,6 +103,8 @@ void add_samples(CLI::App* command, Shorthands& shorthands) {
     if (!read_number(text, number) || number < 1)
       throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
     shorthands.settings.emplace_back("image.samples", text);
+    // The corners' pattern, which NFF files ask for, has no number of samples.
+    shorthands.settings.emplace_back("image.pattern", "stratified");
   };
   command->add_option_function<std::string>("--samples", samples, "Rays through each pixel")->type_name("N");
 }

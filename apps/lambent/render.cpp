@@ -74,10 +74,11 @@ std::string stats_as_json(const Stats& stats) {
                    {"trees", stats.scene.trees},
                    {"nodes", stats.scene.nodes},
                    {"lights", stats.scene.lights}};
-  json["bytes"] = {
-      {"vertices", stats.bytes.vertices}, {"normals", stats.bytes.normals}, {"uvs", stats.bytes.uvs},
-      {"indices", stats.bytes.indices},   {"shapes", stats.bytes.shapes},   {"placed", stats.bytes.placed},
-      {"nodes", stats.bytes.nodes},       {"refs", stats.bytes.refs},       {"film", stats.bytes.film}};
+  json["bytes"] = {{"vertices", stats.bytes.vertices}, {"normals", stats.bytes.normals},
+                   {"uvs", stats.bytes.uvs},           {"indices", stats.bytes.indices},
+                   {"shapes", stats.bytes.shapes},     {"placed", stats.bytes.placed},
+                   {"nodes", stats.bytes.nodes},       {"refs", stats.bytes.refs},
+                   {"textures", stats.bytes.textures}, {"film", stats.bytes.film}};
   json["peak_memory_bytes"] = stats.peak_memory_bytes;
   json["samples_per_pixel"] = stats.samples_per_pixel;
   json["tree_quality"] = stats.tree_quality;
@@ -163,8 +164,8 @@ ExitCode run(const RenderCommand& command) {
   else if (!command.stats.empty()) write_text_file(command.stats, stats_as_json(stats));
 
   if (!command.quiet) {
-    const std::uint64_t rays =
-        stats.rays.eye + stats.rays.reflection + stats.rays.refraction + stats.rays.shadow + stats.rays.ambient;
+    const std::uint64_t rays = stats.rays.eye + stats.rays.reflection + stats.rays.refraction +
+                               stats.rays.shadow + stats.rays.ambient;
     const std::string names =
         frames == 1 ? joined(outputs[0]) : joined(outputs.front()) + " to " + joined(outputs.back());
     print_error(fmt::format("{}: {}, {}, {} rays\n", names, size, duration(total.seconds()), rounded(rays)));

@@ -629,7 +629,10 @@ template <bool Seen> struct Work {
       const Vec3<double> N = lane_vector(hits.N, k), G = lane_vector(hits.G, k);
       Vec3<double> a, b;
       axes_across(N, a, b);
-      const Vec3<float> start = cast<float>(lane_vector(hits.front, k));
+      // From the surface itself, not from the smooth one that it stands for: lifted, a point near the floor
+      // may lie below it.
+      const Vec3<double> P = lane_vector(hits.P, k), off = P - lane_vector(hits.back, k);
+      const Vec3<float> start = cast<float>(P + off);
       int open = 0;
       for (int j = 0; j < occlusion.rays; ++j) {
         const double i = double(sample) * occlusion.rays + j;

@@ -203,7 +203,7 @@ constexpr Lamp lamps[] = {
 };
 constexpr double lamp_distance = 5;          // radii of the model, from its centre
 constexpr double ambient_brightness = 0.15;  // on a white surface at the centre
-// What the floor has faded to at its far end, under 1/r, 1/R and the cosine: no edge shows.
+// Of the background, and of the floor where no light reaches it any more: no edge shows.
 constexpr double background_grey = 0.02;
 constexpr double floor_grey = 0.3;
 constexpr double occlusion_distance = 1;  // radii of the model
@@ -409,8 +409,10 @@ ModelScene scene_for(const Model& model, const std::string& path, const ModelCho
     const Disc disc{rounded(ball.center + (lowest - 1e-3 * ball.radius - middle) * front.up), front.up,
                     rounded(floor_radius * ball.radius)};
     const std::string color = text_of(grey(floor_grey));
-    fmt::format_to(out, "  - {{name: floor, disc: {{{}}}, material: {{ambient: {}, diffuse: {}}}}}\n",
-                   settings_text(disc, Wanted::what_differs), color, color);
+    // Far away nothing is left of the light on it: it ends in the background's colour.
+    fmt::format_to(
+        out, "  - {{name: floor, disc: {{{}}}, material: {{ambient: {}, diffuse: {}, emission: {}}}}}\n",
+        settings_text(disc, Wanted::what_differs), color, color, text_of(grey(background_grey)));
   }
   return made;
 }
