@@ -103,8 +103,6 @@ void add_samples(CLI::App* command, Shorthands& shorthands) {
     if (!read_number(text, number) || number < 1)
       throw usage_error(fmt::format("--samples wants a whole number, 1 or more, not '{}'", text));
     shorthands.settings.emplace_back("image.samples", text);
-    // The corners' pattern, which NFF files ask for, has no number of samples.
-    shorthands.settings.emplace_back("image.pattern", "stratified");
   };
   command->add_option_function<std::string>("--samples", samples, "Rays through each pixel")->type_name("N");
 }

@@ -63,9 +63,8 @@ std::vector<Vec3<double>> points(Reader& reader, const Value& value, const char*
 void read_rough(Reader& reader, const Values& material, const Value& value, Material& out) {
   const auto& fields = format().metallic_roughness.fields;
   out.metallic_roughness.emplace();
-  if (value.node->kind != Node::Kind::nothing)
-    if (const auto values = reader.mapping(value, fields, "a metallic-roughness material"))
-      reader.table(*values, fields, *out.metallic_roughness);
+  if (const auto values = reader.mapping(value, fields, "a metallic-roughness material"))
+    reader.table(*values, fields, *out.metallic_roughness);
   for (const char* other : {"ambient", "diffuse", "specular", "shininess", "reflect", "transmit", "ior"})
     if (const Value* one = material.find(other))
       reader.error(*one->key, one->label + " stands beside 'metallic_roughness'", "which takes its place");

@@ -95,7 +95,14 @@ void read_image(Reader& reader, const Value& value, ImageSettings& image) {
   if (!values) return;
   if (const Value* samples = values->find("samples")) read_samples(reader, *samples, image);
   if (const Value* filter = values->find("filter")) reader.choice(*filter, image.filter);
-  if (const Value* pattern = values->find("pattern")) reader.choice(*pattern, image.pattern);
+  if (const Value* pattern = values->find("pattern")) {
+    reader.choice(*pattern, image.pattern);
+    // Corners have no number of samples: one that comes from outside, as --samples, puts the other pattern in
+    // the place of the file's.
+    const Value* samples = values->find("samples");
+    if (samples != nullptr && samples->node->source > 0 && pattern->node->source == 0)
+      image.pattern = Pattern::stratified;
+  }
   if (const Value* encoding = values->find("encoding")) reader.choice(*encoding, image.encoding);
   const Value* size = values->find("size");
   if (size == nullptr) return;
@@ -153,9 +160,8 @@ void read_illumination(Reader& reader, const Value& value, Illumination& illumin
   if (const Value* occlusion = values->find("ambient_occlusion")) {
     illumination.occlusion.emplace();
     const auto& own = format().ambient_occlusion.fields;
-    if (occlusion->node->kind != Node::Kind::nothing)
-      if (const auto settings = reader.mapping(*occlusion, own, "the ambient occlusion"))
-        reader.table(*settings, own, *illumination.occlusion);
+    if (const auto settings = reader.mapping(*occlusion, own, "the ambient occlusion"))
+      reader.table(*settings, own, *illumination.occlusion);
   }
   if (const Value* model = values->find("model")) {
     std::string word;

@@ -79,7 +79,7 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
             (std::vector<std::string>{"bytes", "isa", "peak_memory_bytes", "rays", "samples_per_pixel",
                                       "scene", "seconds", "threads", "tree_quality", "version"}));
   EXPECT_EQ(keys_of(stats["rays"]),
-            (std::vector<std::string>{"eye", "eye_hits", "reflection", "refraction", "shadow"}));
+            (std::vector<std::string>{"ambient", "eye", "eye_hits", "reflection", "refraction", "shadow"}));
   EXPECT_EQ(keys_of(stats["seconds"]),
             (std::vector<std::string>{"build", "develop", "parse", "render", "write"}));
   EXPECT_EQ(stats["rays"]["eye"], 8 * 6 * 4);
@@ -97,7 +97,7 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
   EXPECT_EQ(stats["scene"]["primitives"], 2);
   EXPECT_EQ(keys_of(stats["bytes"]),
             (std::vector<std::string>{"film", "indices", "nodes", "normals", "placed", "refs", "shapes",
-                                      "uvs", "vertices"}));
+                                      "textures", "uvs", "vertices"}));
   EXPECT_EQ(stats["bytes"]["film"], 8 * 6 * 3 * sizeof(float));
   EXPECT_EQ(stats["version"], version());
 }

@@ -93,8 +93,7 @@ TEST_F(Painted, ScaleTurnAndOffsetMoveTheImage) {
   EXPECT_EQ(white("offset: [0, 0.5]"), "1000");
   EXPECT_EQ(white("scale: [0.5, 0.5]"), "1111");
   EXPECT_EQ(white("scale: [2, 2], wrap: clamp"), "0000");  // the pixels' centres lie at 1/2 and beyond
-  EXPECT_EQ(white("rotate: 90"),
-            "0001");  // (u, v) -> (-v, u): (3/4, 1/4) looks at (-1/4, 3/4), as (3/4, 3/4)
+  EXPECT_EQ(white("rotate: 90"), "1000");  // (u, v) -> (-v, u): (1/4, 3/4) looks at (-3/4, 1/4)
 }
 
 TEST_F(Painted, OpacityShowsTheRestOfWhatLiesBehind) {
@@ -222,9 +221,9 @@ TEST_F(Painted, MissingAndDamagedImagesAreErrorsWithTheirPlace) {
     }
     return {};
   };
-  EXPECT_EQ(error("nothing.png").place.line, 7);
+  EXPECT_EQ(error("nothing.png").place.line, 8);
   EXPECT_NE(error("nothing.png").message.find("cannot open"), std::string::npos);
-  EXPECT_EQ(error("damaged.png").place.line, 7);
+  EXPECT_EQ(error("damaged.png").place.line, 8);
   EXPECT_NE(error("damaged.png").message.find("damaged.png"), std::string::npos);
   EXPECT_NE(error("../outside.png").message.find("cannot open"), std::string::npos);
   test::TemporaryDirectory elsewhere;

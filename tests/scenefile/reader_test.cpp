@@ -259,7 +259,7 @@ TEST(ReaderMessages, Structure) {
             "'name' must be text, not '5' | put it in quotes: \"5\"");
   EXPECT_EQ(only(head + "objects: [{name: nothing}]\n"),
             "this object has no shape | a shape is one of: sphere, plane, disc, box, cylinder, cone, "
-            "polygon, mesh");
+            "polygon, mesh, scene");
   EXPECT_EQ(only(head + "objects: [{mesh: {file: a.stl2}}]\n").substr(0, 45),
             "'a.stl2' is no model file that Lambent reads ");
   EXPECT_EQ(only("lambent: 1\ncamera: {eye: [1, 1, 1], target: [1, 1, 1]}\n"),

@@ -27,6 +27,14 @@ TEST(Settings, ReplaceAndAdd) {
       1);
 }
 
+TEST(Settings, ANumberOfSamplesTakesThePlaceOfCorners) {
+  const std::string corners = head + "image: {pattern: corners}\n";
+  EXPECT_EQ(parse_scene(corners, "s")->image.pattern, Pattern::corners);
+  EXPECT_EQ(parse_scene(corners, "s", set("image.samples", "9"))->image.pattern, Pattern::stratified);
+  const LoadOptions both{{{"image.samples", "9"}, {"image.pattern", "corners"}}};
+  EXPECT_EQ(parse_scene(head, "s", both)->image.pattern, Pattern::corners);
+}
+
 TEST(Settings, LaterOnesWin) {
   const LoadOptions options{{{"image.samples", "9"}, {"image", "{size: [7, 5]}"}, {"image.samples", "4"}}};
   const ScenePtr scene = parse_scene(sample_scene, "s", options);
