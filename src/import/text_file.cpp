@@ -227,6 +227,14 @@ bool parse_plain_number(std::string_view word, double& value) {
 using FileHandle = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 FileHandle open_file(const std::string& path) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status)) {
+    Diagnostic diagnostic;
+    diagnostic.place.file = path;
+    diagnostic.message = "cannot read '" + path + "': it is a device, not a file";  // /dev/zero has no end
+    throw InputError(std::move(diagnostic));
+  }
   FileHandle file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) throw InputError(unreadable(path, "open", errno));
   return file;

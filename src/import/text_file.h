@@ -27,7 +27,8 @@
 
 namespace lambent {
 
-/// The whole file. Throws InputError ("cannot open ...: No such file or directory").
+/// The whole file, or all that comes out of a pipe. Throws InputError ("cannot open ...: No such file or
+/// directory"), also for devices.
 std::string read_file(const std::string& path);
 
 /// Throws InputError where the file is larger than `most` bytes; says nothing of one that is not there.

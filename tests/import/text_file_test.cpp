@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "support.h"
@@ -148,6 +149,20 @@ TEST(TextFile, ReadsWhatIsThereAndNamesWhatIsNot) {
     EXPECT_EQ(error.diagnostics().at(0).place.file, folder.file("missing"));
   }
   EXPECT_THROW(read_file(folder.path()), InputError);
+}
+
+TEST(TextFile, WhatHasNoEndIsNotRead) {
+  if (!std::filesystem::exists("/dev/zero")) GTEST_SKIP() << "This system has no /dev/zero.";
+  const test::TemporaryDirectory folder;
+  const std::string link = folder.file("zero.obj");
+  std::filesystem::create_symlink("/dev/zero", link);
+  try {
+    read_file(link);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.diagnostics().at(0).message, "cannot read '" + link + "': it is a device, not a file");
+  }
+  EXPECT_THROW(TextPieces{link}, InputError);
 }
 
 struct Pieces {
