@@ -231,6 +231,8 @@ class LibraryLint {
     std::string found;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       const std::string there = entry.path().filename().string();
+      // One of the same name is there, but may not be read: it is a pipe, or a link that leads elsewhere.
+      if (there == wanted.filename().string()) return {};
       // The first by name: folders have no order of their own.
       if (lower_case(there) == lower_case(wanted.filename().string()) && (found.empty() || there < found))
         found = there;

@@ -184,6 +184,14 @@ TEST(Lint, NamesOfImagesByCase) {
                      "a.mtl:6:8 image 'no.png' is not there and is left out"}));
 }
 
+TEST(Lint, ANameOfWhatMayNotBeReadIsNotCalledADifferentOne) {
+  const test::TemporaryDirectory folder;
+  test::write_text(folder.file("a.mtl"), "newmtl a\nmap_Kd wood.png\n");
+  std::filesystem::create_symlink("/dev/zero", folder.file("wood.png"));
+  EXPECT_EQ(short_forms(lint_mtl(folder.file("a.mtl"))),
+            Strings{"a.mtl:2:8 image 'wood.png' is not there and is left out"});
+}
+
 // ---- files of others ----
 
 TEST(Lint, EveryFileOfTheCorpusIsLookedThrough) {
