@@ -120,7 +120,10 @@ void Buffers::load_file(const std::string& uri, const std::string& at, Buffer& b
   if (file.path.empty() && *name != uri) file = find_named_file(remarks_.file(), uri, options_);
   if (file.path.empty()) {
     buffer.why_not = "there is no file " + in_quotes(*name);
-    if (file.outside) buffer.why_not = in_quotes(*name) + " lies outside of the model's folder";
+    if (file.outside) {
+      buffer.why_not = in_quotes(*name) + " lies outside of the model's folder";
+      buffer.hint = hint_for_outside;
+    }
     return;
   }
   std::error_code ignored;
@@ -188,7 +191,7 @@ Accessor::Accessor(const Json& root, std::size_t number, Buffers& buffers, Remar
     const Json& buffer_view = root["bufferViews"][index];
     if (!bytes) {
       const std::size_t buffer = whole(buffer_view, "buffer", 0);
-      remarks.fail(std::string("/buffers") / buffer, buffers.why_not(buffer));
+      remarks.fail(std::string("/buffers") / buffer, buffers.why_not(buffer), buffers.hint(buffer));
     }
     data_ = bytes->data() + whole(json, "byteOffset", 0);
     stride_ = whole(buffer_view, "byteStride", stride_);

@@ -41,6 +41,8 @@ class Buffers {
   /// Throws InputError where there are some and they do not suffice.
   std::optional<std::string_view> bytes(std::size_t buffer);
   const std::string& why_not(std::size_t buffer) const { return buffers_[buffer].why_not; }
+  /// The remedy, or empty.
+  const std::string& hint(std::size_t buffer) const { return buffers_[buffer].hint; }
   /// Whether an accessor names a buffer that the file itself leaves open: it has no uri.
   bool is_open(std::size_t accessor) const;
   /// The bytes of a buffer view; likewise.
@@ -55,7 +57,7 @@ class Buffers {
     bool asked = false;
     std::string own;  ///< Of a data URI.
     std::optional<std::string_view> bytes;
-    std::string why_not;
+    std::string why_not, hint;
   };
   void load(std::size_t number, Buffer& buffer);
   void load_file(const std::string& uri, const std::string& at, Buffer& buffer);

@@ -277,7 +277,8 @@ const std::optional<ImageSource>& Materials::image(std::size_t number_of_image) 
       remarks_.warn(at + "/uri",
                     in_quotes(name) +
                         (file.outside ? " lies outside of the model's folder" : " is not there") +
-                        "; the surfaces are shown without it");
+                        "; the surfaces are shown without it",
+                    file.outside ? hint_for_outside : "");
   }
   if (source.bytes || !source.file.empty()) found->second = std::move(source);
   return found->second;

@@ -217,7 +217,7 @@ class MaterialReader {
     if (!missing_.insert(std::string(name)).second) return;
     if (outside)
       warn(name, "image " + in_quotes(name) + " lies outside of the model's folder and is left out",
-           "--allow-outside lets files name files that lie elsewhere");
+           hint_for_outside);
     else warn(name, "image " + in_quotes(name) + " is not there and is left out");
   }
 

@@ -414,7 +414,7 @@ class ObjReader {
       warn(name,
            "material library " + in_quotes(name) +
                " lies outside of the model's folder and is not read; its materials will be grey",
-           "--allow-outside lets files name files that lie elsewhere");
+           hint_for_outside);
   }
 
   /// The words of `rest`; a backslash keeps the blank behind it in a word.

@@ -21,6 +21,9 @@ struct NamedFile {
 /// not told of, unless options.limits.allow_outside; symbolic links count by where they lead.
 NamedFile find_named_file(const std::string& from, std::string_view name, const ImportOptions& options);
 
+/// What to do about a file that lies outside.
+inline constexpr const char* hint_for_outside = "--allow-outside lets files name files that lie elsewhere";
+
 /// Whether the file `path` lies in the folder `root` or below it, symbolic links resolved.
 bool lies_below(const std::string& root, const std::string& path);
 

@@ -120,7 +120,9 @@ TEST(Gltf, BuffersThatAreMissingOrShortOrOutside) {
   const test::TemporaryDirectory elsewhere;
   test::write_text(elsewhere.file("a.bin"), file.bytes());
   file.root["buffers"][0]["uri"] = elsewhere.file("a.bin");
-  EXPECT_TRUE(any_contains(errors_of(file.root.dump()), "lies outside of the model's folder"));
+  EXPECT_TRUE(any_contains(errors_of(file.root.dump()),
+                           "lies outside of the model's folder\n"
+                           "    hint: --allow-outside lets files name files that lie elsewhere"));
   ImportOptions anywhere;
   anywhere.limits.allow_outside = true;
   EXPECT_EQ(errors_of(file.root.dump(), "model.gltf", {}, anywhere), Strings{});
