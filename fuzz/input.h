@@ -73,7 +73,8 @@ inline void check(const InputError& error) {
 }
 
 inline void check(const Model& model) {
-  check(!model.shapes.empty(), "a model has a shape");
+  // A glTF file may hold nothing but cameras, or not even these.
+  check(!model.shapes.empty() || !model.warnings.empty(), "a model has a shape, or says why it has none");
   check(!model.materials.empty(), "a model has a material");
   for (const Shape& shape : model.shapes) {
     check(primitive_count(shape) > 0, "a shape has a primitive");

@@ -66,7 +66,10 @@ class SceneReader {
       camera(node);
       light(node);
     }
-    if (model_.objects.empty()) remarks_.warn("", "the scene shows nothing");
+    if (model_.objects.empty()) {
+      model_.shapes.clear();  // shapes without any object would all be shown
+      remarks_.warn("", "the scene shows nothing");
+    }
   }
 
  private:

@@ -26,7 +26,7 @@ struct NamedCamera {
 };
 
 struct Model {
-  std::vector<Shape> shapes;  ///< One or more parts; material_of_primitive indexes `materials` of this model.
+  std::vector<Shape> shapes;  ///< Parts; a glTF may have none. material_of_primitive indexes `materials`.
   /// Where they stand. Empty: each shape once, as it is.
   std::vector<ModelObject> objects;
   std::vector<Texture> textures;    ///< Not loaded yet.

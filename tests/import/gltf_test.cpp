@@ -805,6 +805,26 @@ TEST(Gltf, Skins) {
   EXPECT_TRUE(any_contains(errors_of(file.text()), "has joint 1, but the skin has 1"));
 }
 
+TEST(Gltf, APartWithoutJointsIsLeftOutWithItsFlatNode) {
+  // The part with joints would be shown, but has no area.
+  GltfBuilder file = with_skin();
+  json& primitives = file.root["meshes"][0]["primitives"];
+  primitives.push_back({{"attributes", {{"POSITION", primitives[0]["attributes"]["POSITION"]}}}});
+  primitives[0]["indices"] = file.add<std::uint16_t>({0, 0, 0}, "SCALAR");
+  file.root["nodes"][0]["scale"] = {0, 0, 0};
+  const Model model = read(file.text());
+  EXPECT_TRUE(model.objects.empty());
+  EXPECT_TRUE(model.shapes.empty());
+  EXPECT_TRUE(any_contains(warnings_of(model), "the scene shows nothing"));
+}
+
+TEST(Gltf, AFileOfNothingIsAModelOfNothing) {
+  const Model model = read(R"({"asset": {"version": "2.0"}})");
+  EXPECT_TRUE(model.shapes.empty());
+  EXPECT_EQ(model.materials.size(), 1u);
+  EXPECT_EQ(warnings_of(model), Strings{"model.gltf: warning: the file shows nothing"});
+}
+
 TEST(Gltf, AnimationsAtATime) {
   const auto position = [](const json& sampler, std::optional<double> time,
                            const char* path = "translation") {
