@@ -48,6 +48,7 @@ class SceneReader {
   SceneReader(const Json& root, Buffers& buffers, const ImportOptions& options, Materials& materials,
               Remarks& remarks, Model& model)
       : root_(root),
+        buffers_(buffers),
         remarks_(remarks),
         model_(model),
         pose_(make_pose(root, buffers, options.time, remarks)),
@@ -128,6 +129,11 @@ class SceneReader {
           left_out = true;
           continue;
         }
+        // Many nodes times many parts: an object takes more memory than the bytes that name a node.
+        constexpr std::uint64_t harmless = 1 << 16;
+        if (model_.objects.size() > harmless && model_.objects.size() > buffers_.total())
+          remarks_.fail(std::string("/nodes") / number,
+                        "the scene shows more objects than its file has bytes");
         const std::string name = name_of(number);
         model_.objects.push_back({name.empty() ? model_.shapes[part.shape].name : name, part.shape,
                                   part.in_world ? Transform{} : world});
@@ -235,6 +241,7 @@ class SceneReader {
   }
 
   const Json& root_;
+  Buffers& buffers_;
   Remarks& remarks_;
   Model& model_;
   Pose pose_;

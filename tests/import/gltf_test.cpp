@@ -825,6 +825,25 @@ TEST(Gltf, AFileOfNothingIsAModelOfNothing) {
   EXPECT_EQ(warnings_of(model), Strings{"model.gltf: warning: the file shows nothing"});
 }
 
+TEST(Gltf, SharingMakesNoModelOfAnySize) {
+  // Primitives of the same numbers.
+  GltfBuilder file;
+  const json primitive = {
+      {"attributes", {{"POSITION", file.add(std::vector<float>(3 * 3000, 0.5f), "VEC3")}}}, {"mode", 0}};
+  file.show(primitive);
+  json& primitives = file.root["meshes"][0]["primitives"];
+  primitives = json(700, primitive);
+  EXPECT_TRUE(any_contains(errors_of(file.text()), "more than 16 primitives for each byte of its file"));
+  primitives = json(300, primitive);  // less than a million are let pass in any case
+  EXPECT_EQ(read(file.text()).objects.size(), 300u);
+  // Nodes of the same mesh.
+  GltfBuilder wide;
+  wide.show({{"attributes", {{"POSITION", wide.add(square, "VEC3")}}}, {"mode", 0}});
+  wide.root["meshes"][0]["primitives"] = json(400, wide.root["meshes"][0]["primitives"][0]);
+  for (int i = 0; i < 400; ++i) wide.add_node({{"mesh", 0}});
+  EXPECT_TRUE(any_contains(errors_of(wide.text()), "the scene shows more objects than its file has bytes"));
+}
+
 TEST(Gltf, AnimationsAtATime) {
   const auto position = [](const json& sampler, std::optional<double> time,
                            const char* path = "translation") {
