@@ -238,7 +238,7 @@ void Meshes::count_primitives(std::uint64_t more, const std::string& at) {
                           " primitives, which is the limit");
   // Meshes and skins may share numbers, but not to the point that the file's size says nothing: where none
   // do, a byte makes one primitive at most.
-  constexpr std::uint64_t most_per_byte = 16, harmless = 1 << 20;
+  constexpr std::uint64_t most_per_byte = 4, harmless = 1 << 20;
   if (primitives_ > harmless && primitives_ / most_per_byte > buffers_.total())
     remarks_.fail(at, "the model has more than " + std::to_string(most_per_byte) +
                           " primitives for each byte of its file");

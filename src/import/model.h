@@ -50,8 +50,8 @@ struct ImportOptions {
   std::string root = {};
 };
 
-/// Read a model file; its ending (.obj, .nff, .ply, .stl, .gltf, .glb) names the format. Throws InputError with
-/// the file's name and line.
+/// Read a model file; its ending (.obj, .nff, .ply, .stl, .gltf, .glb) names the format. Throws InputError
+/// with the file's name and line.
 Model import_model(const std::string& path, const ImportOptions& options = {});
 
 Model import_obj(const std::string& path, const ImportOptions& options = {});

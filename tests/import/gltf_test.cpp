@@ -832,8 +832,8 @@ TEST(Gltf, SharingMakesNoModelOfAnySize) {
       {"attributes", {{"POSITION", file.add(std::vector<float>(3 * 3000, 0.5f), "VEC3")}}}, {"mode", 0}};
   file.show(primitive);
   json& primitives = file.root["meshes"][0]["primitives"];
-  primitives = json(700, primitive);
-  EXPECT_TRUE(any_contains(errors_of(file.text()), "more than 16 primitives for each byte of its file"));
+  primitives = json(400, primitive);
+  EXPECT_TRUE(any_contains(errors_of(file.text()), "more than 4 primitives for each byte of its file"));
   primitives = json(300, primitive);  // less than a million are let pass in any case
   EXPECT_EQ(read(file.text()).objects.size(), 300u);
   // Nodes of the same mesh.
