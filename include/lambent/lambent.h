@@ -154,10 +154,10 @@ struct Stats {
   struct {
     /// Of meshes, as they are stored; uvs with colours and tangents.
     std::uint64_t vertices = 0, normals = 0, uvs = 0, indices = 0;
-    std::uint64_t shapes = 0;  ///< Spheres, cones, discs and planes, as they are stored.
-    std::uint64_t placed = 0;  ///< Copies of all these, taken into the world.
-    std::uint64_t nodes = 0;   ///< The trees' nodes,
-    std::uint64_t refs = 0;    ///< and what their leaves hold.
+    std::uint64_t shapes = 0;    ///< Spheres, cones, discs and planes, as they are stored.
+    std::uint64_t placed = 0;    ///< Copies of all these, taken into the world.
+    std::uint64_t nodes = 0;     ///< The trees' nodes,
+    std::uint64_t refs = 0;      ///< and what their leaves hold.
     std::uint64_t textures = 0;  ///< With their levels of detail.
     std::uint64_t film = 0;
   } bytes;

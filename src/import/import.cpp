@@ -13,12 +13,8 @@ struct Format {
   Model (*read)(const std::string& path, const ImportOptions& options);
 };
 constexpr Format formats[] = {
-    {".obj", import_obj},
-    {".nff", import_nff},
-    {".ply", import_ply},
-    {".stl", import_stl},
-    {".gltf", import_gltf},
-    {".glb", import_gltf},
+    {".obj", import_obj}, {".nff", import_nff},   {".ply", import_ply},
+    {".stl", import_stl}, {".gltf", import_gltf}, {".glb", import_gltf},
 };
 
 const Format* format_of(const std::string& path) {

@@ -21,7 +21,7 @@ Key key_of(const Texture& texture) { return {texture.source.file, texture.source
 std::vector<Diagnostic> told_where_named(const InputError& error, const ImageSource& source) {
   std::vector<Diagnostic> result;
   for (Diagnostic diagnostic : error.diagnostics()) {
-    if (source.place.line > 0 && !source.file.empty())
+    if (diagnostic.message.find(source.name) == std::string::npos)
       diagnostic.message = "image '" + source.name + "': " + diagnostic.message;
     diagnostic.place = source.place;
     diagnostic.excerpt.clear();
@@ -46,10 +46,23 @@ std::string bytes_of(const std::string& path, const Limits& limits) {
   return read_file(path);
 }
 
-void load(Texture& texture, const Limits& limits) {
+/// `left`: how many pixels all textures together may still have.
+void load(Texture& texture, const Limits& limits, std::uint64_t& left) {
   const ImageSource& source = texture.source;
-  Pixels pixels = source.file.empty() ? read_pixels(*source.bytes, source.name, limits)
-                                      : read_pixels(bytes_of(source.file, limits), source.file, limits);
+  const std::string from_file = source.file.empty() ? std::string() : bytes_of(source.file, limits);
+  const std::string_view bytes = source.file.empty() ? std::string_view(*source.bytes) : from_file;
+  const PixelSize size = pixel_size(bytes, source.name, limits);
+  const std::uint64_t count = std::uint64_t(size.width) * std::uint64_t(size.height);
+  if (count > left) {
+    Diagnostic diagnostic;
+    diagnostic.message = "image '" + source.name +
+                         "' is one too many: together the textures have more than " +
+                         std::to_string(limits.pixels) + " pixels";
+    diagnostic.hint = "--max-pixels sets the limit";
+    throw InputError(diagnostic);
+  }
+  left -= count;
+  Pixels pixels = read_pixels(bytes, source.name, limits);
   if (texture.srgb && !pixels.linear) {
     texture.decoded.resize(256);
     for (int i = 0; i < 256; ++i) texture.decoded[std::size_t(i)] = float(linear_from_srgb(i / 255.0));
@@ -84,6 +97,7 @@ void load_textures(Scene& scene, const Limits& limits) {
   std::vector<std::uint32_t> index(scene.textures.size(), none);
   std::map<Key, std::uint32_t> known;
   std::vector<Diagnostic> wrong;
+  std::uint64_t left = limits.pixels;
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     if (!used[i]) continue;
     Texture& texture = scene.textures[i];
@@ -93,7 +107,7 @@ void load_textures(Scene& scene, const Limits& limits) {
       continue;
     }
     try {
-      if (texture.channels == 0) load(texture, limits);
+      if (texture.channels == 0) load(texture, limits, left);
       index[i] = std::uint32_t(loaded.size());
       loaded.push_back(std::move(texture));
     } catch (const InputError& error) {

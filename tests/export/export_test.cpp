@@ -143,7 +143,8 @@ objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: chalk}]
 )",
                             ExportFormat::povray);
   EXPECT_NE(out.text.find("transmit 0.5"), std::string::npos) << out.text;
-  EXPECT_NE(out.text.find("color rgb <0.5, 0.5, 0.5>"), std::string::npos) << out.text;  // 0.25 of the 0.5 left
+  EXPECT_NE(out.text.find("color rgb <0.5, 0.5, 0.5>"), std::string::npos)
+      << out.text;  // 0.25 of the 0.5 left
   EXPECT_TRUE(out.says("image around the scene"));
   EXPECT_TRUE(out.says("ambient occlusion"));
   EXPECT_TRUE(out.says("'chalk' is one-sided"));

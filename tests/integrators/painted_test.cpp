@@ -233,6 +233,23 @@ TEST_F(Painted, MissingAndDamagedImagesAreErrorsWithTheirPlace) {
   EXPECT_NE(outside.hint.find("--allow-outside"), std::string::npos);
 }
 
+TEST_F(Painted, AllTexturesTogetherHaveALimit) {
+  write_bmp(folder.file("a.bmp"), 4, 4, [](int x, int y) -> std::array<int, 3> { return {x, y, 0}; });
+  write_bmp(folder.file("b.bmp"), 4, 4, [](int x, int y) -> std::array<int, 3> { return {y, x, 0}; });
+  const std::string text = square(1, "{maps: {diffuse: a.bmp, ambient: b.bmp}}");
+  LoadOptions options;
+  options.limits.pixels = 32;
+  EXPECT_NO_THROW(parse_scene(text, folder.file("scene.yaml"), options));
+  options.limits.pixels = 31;  // each has 16
+  try {
+    parse_scene(text, folder.file("scene.yaml"), options);
+    ADD_FAILURE() << "was accepted";
+  } catch (const InputError& wrong) {
+    EXPECT_NE(wrong.diagnostics().at(0).message.find("b.bmp"), std::string::npos);
+    EXPECT_NE(wrong.diagnostics().at(0).hint.find("--max-pixels"), std::string::npos);
+  }
+}
+
 TEST_F(Painted, OneImageIsInMemoryOnce) {
   write_bmp(folder.file("a.bmp"), 4, 4, [](int x, int y) -> std::array<int, 3> { return {x, y, 0}; });
   const ScenePtr loaded = scene(square(1, "{maps: {diffuse: a.bmp, ambient: a.bmp, bump: a.bmp}}"));
