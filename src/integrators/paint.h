@@ -18,9 +18,10 @@ inline namespace LAMBENT_ISA {
 struct Paint {
   Rgb ka, kd, ks, emission, reflect, transmit;
   double n, ior;
-  double lobe;     ///< How much wider mirror rays leave than they came, radians.
-  bool gap;        ///< There is no surface here.
-  Vec3<double> N;  ///< Tilted by normal and bump maps; on the outside.
+  double curvature;  ///< SurfaceCoordinates'.
+  double lobe;       ///< How much wider mirror rays leave than they came, radians.
+  bool gap;          ///< There is no surface here.
+  Vec3<double> N;    ///< Tilted by normal and bump maps; on the outside.
 };
 
 namespace detail {
@@ -80,8 +81,8 @@ inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
                    double width) {
   const MaterialRecord& m = frame.unpainted[material];
   const SurfaceCoordinates at = coordinates_at(frame.world, ids, P);
-  Paint out{m.ambient,   m.diffuse, m.specular, m.emission, m.reflect, m.transmit,
-            m.shininess, m.ior,     0,          false,      N};
+  Paint out{m.ambient,   m.diffuse, m.specular,   m.emission, m.reflect, m.transmit,
+            m.shininess, m.ior,     at.curvature, 0,          false,     N};
   MetallicRoughnessOf<double, Rgb> rough = m.rough;
   double opacity = m.opacity * at.color[3], occlusion = 1;
   const Rgb vertex_color{at.color[0], at.color[1], at.color[2]};
@@ -212,7 +213,7 @@ inline bool is_gap(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
 inline Rgb share_through(const Frame& frame, const HitIds<std::int32_t>& ids, std::uint32_t material,
                          const SurfacePoint<double>& s, const Vec3<double>& d) {
   const MaterialRecord& m = frame.materials[material];
-  if (!m.painted && !frame.world.geometries[ids.geometry].colors)
+  if (!m.painted && !m.gaps && !frame.world.geometries[ids.geometry].colors)
     return frame.whitted.colored_shadows ? m.transmit : Rgb{};
   const Paint here = paint(frame, ids, material, s.P, s.N, s.Ng, d, 0);
   if (here.gap) return grey(1.0);

@@ -325,7 +325,7 @@ template <bool Seen> struct Work {
   struct Painted {
     C ka, kd, ks, emission, reflect, transmit;
     F n, ior;
-    double lobe[lanes];
+    double curvature[lanes], lobe[lanes];
   };
 
   /// A packet of hits: all that is known of them.
@@ -440,7 +440,8 @@ template <bool Seen> struct Work {
     painted.reflect = color(&Paint::reflect), painted.transmit = color(&Paint::transmit);
     painted.n = gather<F>([&](int k) { return paints[k].n; });
     painted.ior = gather<F>([&](int k) { return paints[k].ior; });
-    for (int k = 0; k < lanes; ++k) painted.lobe[k] = paints[k].lobe;
+    for (int k = 0; k < lanes; ++k)
+      painted.curvature[k] = paints[k].curvature, painted.lobe[k] = paints[k].lobe;
     hits.N = gather_points<F>([&](int k) -> const Vec3<double>& { return paints[k].N; });
     hits.painted = &painted;
   }
@@ -818,11 +819,13 @@ template <bool Seen> struct Work {
     rays.width[i] = width;
     rays.spread[i] = before.spread[parent];
     if (!mirrored) return;
-    const double curvature =
-        coordinates_at(frame.world,
-                       {before.instance[parent], before.geometry[parent], before.primitive[parent]},
-                       lane_vector(hits.P, k))
-            .curvature;
+    const auto curvature_there = [&] {
+      return coordinates_at(frame.world,
+                            {before.instance[parent], before.geometry[parent], before.primitive[parent]},
+                            lane_vector(hits.P, k))
+          .curvature;
+    };
+    const double curvature = hits.painted ? hits.painted->curvature[k] : curvature_there();
     rays.spread[i] += 2 * curvature * width +
                       (hits.painted ? hits.painted->lobe[k] : frame.materials[hits.material[k]].lobe);
   }

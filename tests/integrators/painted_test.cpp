@@ -137,6 +137,17 @@ TEST_F(Painted, MasksAreHolesForRaysAndForLight) {
   EXPECT_NEAR(image.pixel(0, 0)[1], 0.5, 1e-6);
 }
 
+TEST_F(Painted, AMaskWithoutAMapIsAllThereOrNotAtAll) {
+  const std::string wall =
+      "  - {plane: {point: [0, 0, -1], normal: [0, 0, 1]}, material: {diffuse: [0, 0.5, 0]}}\n";
+  const Image gone = picture(square(1, "{diffuse: [1, 0, 0], alpha: mask, opacity: 0.2}", wall));
+  EXPECT_NEAR(gone.pixel(0, 0)[0], 0, 1e-6);
+  EXPECT_NEAR(gone.pixel(0, 0)[1], 0.5, 1e-6);  // and no shadow on the wall
+  const Image there = picture(square(1, "{diffuse: [1, 0, 0], alpha: mask, opacity: 0.8}", wall));
+  EXPECT_NEAR(there.pixel(0, 0)[0], 1, 1e-6);
+  EXPECT_NEAR(there.pixel(0, 0)[1], 0, 1e-6);
+}
+
 TEST_F(Painted, OneSidedSurfacesAreNotSeenFromInside) {
   const std::string behind =
       "  - {plane: {point: [0, 0, -1], normal: [0, 0, 1]}, material: {diffuse: 0, ambient: 0, emission: [0, "
