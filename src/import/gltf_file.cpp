@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "import/bare.h"
 #include "import/gltf_json.h"
 #include "import/text_file.h"
 
@@ -72,13 +73,6 @@ class GlbReader {
   Container& file_;
 };
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return result;
-}
-
 /// The value of each digit of base64, 64 for what is none.
 constexpr std::array<std::uint8_t, 256> base64_values = [] {
   std::array<std::uint8_t, 256> values{};
@@ -117,20 +111,16 @@ int hex_digit(char c) {
 }  // namespace
 
 Container read_container(const std::string& path, const Limits& limits) {
-  std::error_code ignored;
-  const auto size = std::filesystem::file_size(path, ignored);
-  if (!ignored && size > limits.file_bytes)
-    Remarks(path).fail("", "the file has " + std::to_string(size) + " bytes; the limit is " +
-                               std::to_string(limits.file_bytes));
+  check_file_size(path, limits);
   Container file;
   file.bytes = read_file(path);
-  file.binary = file.bytes.starts_with(magic) || lower(path).ends_with(".glb");
+  file.binary = file.bytes.starts_with(magic) || lower_case(path).ends_with(".glb");
   if (file.binary) GlbReader(path, file).read();
   else file.json_size = file.bytes.size();
   return file;
 }
 
-bool is_data_uri(std::string_view uri) { return lower(uri.substr(0, 5)) == "data:"; }
+bool is_data_uri(std::string_view uri) { return lower_case(uri.substr(0, 5)) == "data:"; }
 
 std::optional<DataUri> read_data_uri(std::string_view uri, std::string& complaint) {
   const std::size_t comma = uri.find(',');
@@ -138,7 +128,7 @@ std::optional<DataUri> read_data_uri(std::string_view uri, std::string& complain
     complaint = "the data URI has no comma before its data";
     return std::nullopt;
   }
-  const std::string head = lower(uri.substr(5, comma - 5));
+  const std::string head = lower_case(uri.substr(5, comma - 5));
   DataUri result;
   result.media_type = head.substr(0, head.find(';'));
   if (!head.ends_with(";base64")) {

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "import/model.h"
+#include "import/text_file.h"
 
 namespace lambent {
 
@@ -18,9 +19,7 @@ constexpr Format formats[] = {
 };
 
 const Format* format_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+  const std::string ending = lower_case(std::filesystem::path(path).extension().string());
   const auto found = std::find_if(std::begin(formats), std::end(formats),
                                   [&](const Format& format) { return format.ending == ending; });
   return found == std::end(formats) ? nullptr : found;

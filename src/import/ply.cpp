@@ -472,8 +472,7 @@ class Ascii {
     if (stop == end && error == std::errc() && std::isfinite(value)) return value;
     if (const auto slow = parse_number(word)) return *slow;
     // Scanners write nan where they have seen nothing; MSVC wrote 1.#QNAN.
-    std::string lower(word.substr(0, 16));
-    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    const std::string lower = lower_case(word.substr(0, 16));
     const std::string_view text = std::string_view(lower).substr(lower[0] == '-' || lower[0] == '+');
     if (text.starts_with("nan") || text.starts_with("inf") || text.starts_with("1.#")) return nan;
     if (error == std::errc::result_out_of_range) return nan;

@@ -33,13 +33,6 @@ namespace {
 constexpr double crease = 30;  // degrees
 constexpr std::size_t header_size = 84, facet_size = 50;
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-  return result;
-}
-
 /// Collects the facets of a solid, and makes a shape of them.
 class Solid {
  public:

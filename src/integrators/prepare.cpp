@@ -49,8 +49,7 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   record.transmits = may_transmit(material);
   if (const auto& m = material.metallic_roughness) {
     record.is_rough = true;
-    record.rough = {m->base_color, m->metallic,     m->roughness, m->specular,           m->specular_color,
-                    m->ior,        m->transmission, m->clearcoat, m->clearcoat_roughness};
+    record.rough = numbers_of(*m);
     record.reflects = true;
     record.ior = 1;  // thin, as KHR_materials_transmission has it
   }

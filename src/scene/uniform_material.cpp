@@ -1,17 +1,18 @@
 #include "scene/uniform_material.h"
 
-#include "illumination/metallic_roughness.h"
-
 namespace lambent {
+
+MetallicRoughnessOf<double, Rgb> numbers_of(const MetallicRoughness& m) {
+  return {m.base_color, m.metallic,     m.roughness, m.specular,           m.specular_color,
+          m.ior,        m.transmission, m.clearcoat, m.clearcoat_roughness};
+}
 
 Material uniform_material(const Material& material) {
   Material out = material;
   // What is merely not opaque does not bend light.
   if (is_black(out.transmit)) out.ior = 1;
   if (const auto& m = material.metallic_roughness) {
-    const auto lecture = lecture_material(MetallicRoughnessOf<double, Rgb>{
-        m->base_color, m->metallic, m->roughness, m->specular, m->specular_color, m->ior, m->transmission,
-        m->clearcoat, m->clearcoat_roughness});
+    const auto lecture = lecture_material(numbers_of(*m));
     out.ambient = lecture.ka, out.diffuse = lecture.kd, out.specular = lecture.ks;
     out.reflect = lecture.reflect, out.transmit = lecture.transmit, out.shininess = lecture.n;
     out.ior = 1;  // thin, as KHR_materials_transmission has it

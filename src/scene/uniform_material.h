@@ -1,8 +1,12 @@
 #pragma once
 
+#include "illumination/metallic_roughness.h"
 #include "scene/scene.h"
 
 namespace lambent {
+
+/// What metallic_roughness.h makes the lecture's numbers of.
+MetallicRoughnessOf<double, Rgb> numbers_of(const MetallicRoughness& material);
 
 /// The material as it is where nothing is painted on it: a metallic-roughness one in the lecture's numbers
 /// (illumination/metallic_roughness.h), and what is not opaque of it in its colours and `transmit`. Its maps

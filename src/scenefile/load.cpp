@@ -3,7 +3,6 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -25,12 +24,7 @@ namespace fs = std::filesystem;
 std::string folder_of(const std::string& path) { return fs::path(path).parent_path().string(); }
 
 /// A lower-case ending with its dot, or empty.
-std::string ending_of(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return ending;
-}
+std::string ending_of(const std::string& path) { return lower_case(fs::path(path).extension().string()); }
 
 /// Whether a background is meant to be an image, not a colour.
 bool is_image_name(const std::string& text) {
