@@ -134,7 +134,12 @@ struct Witness {
   void (*color)(void* self, const SeenColor&);
 };
 
+/// How rays are followed: which kernel renders the frame.
+enum class Tracing { whitted };
+inline constexpr int tracing_count = 1;
+
 struct Frame {
+  Tracing tracing = Tracing::whitted;
   WorldView world;
   const RayListener* listener = nullptr;  ///< Null: nobody.
   const Witness* witness = nullptr;       ///< Likewise.
@@ -244,10 +249,16 @@ struct Scratch {
   static void grow(Column<double>& column, std::uint32_t capacity);
 };
 
-/// The Whitted integrator, compiled for one instruction set.
+/// An integrator's kernel: renders the task's pixels.
+using RenderPixels = void(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts);
+
+/// The kernels, compiled for one instruction set.
 struct Kernel {
   const char* isa;
-  void (*render)(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts);
+  RenderPixels* of[tracing_count];  ///< By Tracing.
+  void render(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) const {
+    of[int(frame.tracing)](frame, task, scratch, counts);
+  }
 };
 
 }  // namespace lambent

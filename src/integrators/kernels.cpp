@@ -5,31 +5,41 @@
 namespace lambent {
 
 // One definition of each stands in the same source file, compiled under another name (see math/isa.h).
-namespace isa_baseline {
-extern const Kernel whitted_kernel;
-}
-#ifdef LAMBENT_X86_KERNELS
-namespace isa_avx2 {
-extern const Kernel whitted_kernel;
-}
-namespace isa_avx512 {
-extern const Kernel whitted_kernel;
-}
+#define LAMBENT_KERNEL(isa)                          \
+  namespace isa_##isa {                              \
+    RenderPixels render_whitted;                     \
+    constexpr Kernel kernel{#isa, {render_whitted}}; \
+  }
+#ifdef LAMBENT_KERNELS_baseline
+LAMBENT_KERNEL(baseline)
+#endif
+#ifdef LAMBENT_KERNELS_avx2
+LAMBENT_KERNEL(avx2)
+#endif
+#ifdef LAMBENT_KERNELS_avx512
+LAMBENT_KERNEL(avx512)
 #endif
 
 const std::vector<const Kernel*>& kernels() {
   static const std::vector<const Kernel*> all = [] {
     std::vector<const Kernel*> result;
-#ifdef LAMBENT_X86_KERNELS
-    const bool avx2 =
+#if defined(__x86_64__)
+    [[maybe_unused]] const bool avx2 =
         __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("fma");
-    const bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                        __builtin_cpu_supports("avx512vl");
-    if (avx512) result.push_back(&isa_avx512::whitted_kernel);
-    if (avx2) result.push_back(&isa_avx2::whitted_kernel);
+    [[maybe_unused]] const bool avx512 =
+        avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl");
 #endif
-    result.push_back(&isa_baseline::whitted_kernel);
+#ifdef LAMBENT_KERNELS_avx512
+    if (avx512) result.push_back(&isa_avx512::kernel);
+#endif
+#ifdef LAMBENT_KERNELS_avx2
+    if (avx2) result.push_back(&isa_avx2::kernel);
+#endif
+#ifdef LAMBENT_KERNELS_baseline
+    result.push_back(&isa_baseline::kernel);
+#endif
     return result;
   }();
   return all;
