@@ -289,6 +289,9 @@ struct Wavefront {
     C ka, kd, ks, emission, reflect, transmit;
     F n, ior;
     double curvature[lanes], lobe[lanes];
+    // Of paths, which take a material as it is given:
+    MetallicRoughnessOf<F, C> rough;
+    F opacity;
   };
 
   /// A packet of hits: all that is known of them.
@@ -366,6 +369,7 @@ struct Wavefront {
     const RayQueue& rays = scratch.rays;
     const Lanes& at = block.at[packet];
     Hits& hits = block.hits[packet];
+    const bool as_given = frame.tracing == Tracing::path;
     Paint paints[lanes];
     for (int k = 0; k < lanes; ++k) {
       if (k >= at.count) {
@@ -376,9 +380,11 @@ struct Wavefront {
       const double side = lane_bits(hits.outside) >> k & 1 ? 1.0 : -1.0;
       const Vec3<double> d = -lane_vector(hits.V, k);
       const double width = frame.cones ? rays.width[ray] + rays.spread[ray] * lane(hits.t, k) : 0;
-      paints[k] = paint(frame, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]},
-                        hits.material[k], lane_vector(hits.P, k), side * lane_vector(hits.N, k),
-                        side * lane_vector(hits.G, k), d, width);
+      const HitIds<std::int32_t> ids{rays.instance[ray], rays.geometry[ray], rays.primitive[ray]};
+      const Vec3<double> P = lane_vector(hits.P, k), N = side * lane_vector(hits.N, k),
+                         G = side * lane_vector(hits.G, k);
+      paints[k] = as_given ? paint_as_given(frame, ids, hits.material[k], P, N, G, d, width)
+                           : paint(frame, ids, hits.material[k], P, N, G, d, width);
       paints[k].N = side * paints[k].N;
     }
     const auto color = [&](Rgb Paint::*member) {
@@ -388,6 +394,24 @@ struct Wavefront {
       return result;
     };
     Painted& painted = block.painted[packet];
+    if (as_given) {
+      const auto number = [&](double MetallicRoughnessOf<double, Rgb>::*member) {
+        return gather<F>([&](int k) { return paints[k].rough.*member; });
+      };
+      const auto rough_color = [&](Rgb MetallicRoughnessOf<double, Rgb>::*member) {
+        C result;
+        for (int c = 0; c < color_channels; ++c)
+          result[c] = gather<F>([&](int k) { return (paints[k].rough.*member)[c]; });
+        return result;
+      };
+      using Rough = MetallicRoughnessOf<double, Rgb>;
+      painted.rough = {rough_color(&Rough::base_color),     number(&Rough::metallic),
+                       number(&Rough::roughness),           number(&Rough::specular),
+                       rough_color(&Rough::specular_color), number(&Rough::ior),
+                       number(&Rough::transmission),        number(&Rough::clearcoat),
+                       number(&Rough::clearcoat_roughness)};
+      painted.opacity = gather<F>([&](int k) { return paints[k].opacity; });
+    }
     painted.ka = color(&Paint::ka), painted.kd = color(&Paint::kd), painted.ks = color(&Paint::ks);
     painted.emission = color(&Paint::emission);
     painted.reflect = color(&Paint::reflect), painted.transmit = color(&Paint::transmit);
@@ -452,6 +476,18 @@ struct Wavefront {
   bool all_opaque() const {
     return !frame.any_transmits || (!frame.whitted.colored_shadows && !frame.any_masks);
   }
+  /// Closes the lanes of `open` where something stands in the way before t_far: together where the rays go
+  /// together, and one by one where they do not, as what scattered rays have found lies anywhere.
+  void find_open_lanes(const QueryRay<Query>& rays, const Query& t_far, bool opaque,
+                       MaskOf<Query>& open) const {
+    if (PacketBeam::suits(&rays, &t_far, 1, frame.world.bvhs[0].extent))
+      return find_open(frame.world, &rays, &t_far, 1, opaque, &open);
+    for (std::uint32_t asked = lane_bits(open); asked; asked &= asked - 1) {
+      const int k = __builtin_ctz(asked);
+      if (find_occluded(frame.world, lane(rays, k), true, lane(t_far, k), opaque)) set_lane(open, k, false);
+    }
+  }
+
   void tell(const QueryRay<Query>& rays, std::uint32_t asked, const Query& t_far) const {
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);
@@ -461,9 +497,9 @@ struct Wavefront {
     }
   }
 
-  /// What transmitting surfaces leave of light along a ray: the product of their `transmit`, straight on, in
-  /// the order in which the ray meets them.
-  Rgb transmittance_along(QueryRay<float> ray, float t_far) const {
+  /// What surfaces leave of light along a ray: the product of share(ids, material, surface point, direction),
+  /// straight on, in the order in which the ray meets them.
+  template <class Share> Rgb what_passes(QueryRay<float> ray, float t_far, const Share& share) const {
     const Vec3<double> d = normalize(cast<double>(ray.d));
     double left = t_far;
     Rgb result = grey(1.0);
@@ -472,10 +508,9 @@ struct Wavefront {
       find_closest(frame.world, ray, true, hit);
       if (hit.ids.geometry < 0) return result;
       const SurfacePoint<double> s = surface_at(frame.world, hit.ids, cast<double>(ray.o), d, hit.t);
-      result = result *
-               share_through(frame, hit.ids,
-                             material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive),
-                             s, d);
+      result = result * share(hit.ids,
+                              material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive),
+                              s, d);
       if (is_black(result)) return result;
       const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
       left = left - max(s.t, 0.0);
@@ -641,6 +676,11 @@ struct Wavefront {
       for (int c = 0; c < color_channels; ++c)
         task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
       if (task.layer_sums) add_layers_to_pixel(pixel, i);
+      if (task.squares) {
+        const double luminance = luminance_of(
+            Rgb{scratch.samples.color[0][i], scratch.samples.color[1][i], scratch.samples.color[2][i]});
+        task.squares[pixel] += luminance * luminance;
+      }
       if (task.least_and_greatest) {
         float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
         float* greatest = least + color_channels;

@@ -202,20 +202,7 @@ template <bool Seen> struct Work : Wavefront {
   [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
                                       MaskOf<Query>* open) const {
     if (depth == 1) return find_open(frame.world, rays, t_far, count, all_opaque(), open);
-    // What scattered rays have found lies anywhere: packet by packet where the shadow rays still go together,
-    // and one by one where they do not.
-    const float extent = frame.world.bvhs[0].extent;
-    for (int i = 0; i < count; ++i) {
-      if (PacketBeam::suits(rays + i, t_far + i, 1, extent)) {
-        find_open(frame.world, rays + i, t_far + i, 1, all_opaque(), open + i);
-        continue;
-      }
-      for (std::uint32_t asked = lane_bits(open[i]); asked; asked &= asked - 1) {
-        const int k = __builtin_ctz(asked);
-        if (find_occluded(frame.world, lane(rays[i], k), true, lane(t_far[i], k), all_opaque()))
-          set_lane(open[i], k, false);
-      }
-    }
+    for (int i = 0; i < count; ++i) find_open_lanes(rays[i], t_far[i], all_opaque(), open[i]);
   }
 
   /// The share of the sky above the hits that nothing hides. Directions are those of Roberts' R2 sequence
@@ -277,7 +264,8 @@ template <bool Seen> struct Work : Wavefront {
     double left[color_channels][lanes] = {};
     for (; open; open &= open - 1) {
       const int k = __builtin_ctz(open);
-      const Rgb one = transmittance_along(lane(rays, k), float(lane(light.r, k)));
+      const Rgb one = what_passes(lane(rays, k), float(lane(light.r, k)),
+                                  [&](const auto&... surface) { return share_through(frame, surface...); });
       for (int c = 0; c < color_channels; ++c) left[c][k] = one[c];
     }
     C result;
