@@ -307,11 +307,17 @@ Format make_format() {
     field.sentence = "Of the rays that `rays` counts, as in `whitted`. " + field.sentence;
     view.fields.push_back(std::move(field));
   }
-  f.integrators = {whitted, view};
-  f.integrator =
-      section("integrator", "how rays are followed, and what is shown of them: one of these",
-              {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
-               field("view", FieldType::section, "", "Not colours, but what the eye's rays meet first.")});
+  Section path =
+      section("path", "paths of light by chance, as the rendering equation weighs them: path tracing",
+              fields_of<PathSettings>());
+  path.equation = "L(P, V) = Le(P, V) + integral over the sphere of  f(P, L, V) L(P, L) |N.L| dL";
+  path.source = "Kajiya, The rendering equation, SIGGRAPH 1986";
+  f.integrators = {whitted, path, view};
+  f.integrator = section(
+      "integrator", "how rays are followed, and what is shown of them: one of these",
+      {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
+       field("path", FieldType::section, "", "All light there is, by chance: the rendering equation."),
+       field("view", FieldType::section, "", "Not colours, but what the eye's rays meet first.")});
   f.light = section("light", "a light",
                     {field("name", FieldType::name, "",
                            "What it is called, once only; `light 1` and so on where not given.")});
