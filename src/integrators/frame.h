@@ -22,6 +22,7 @@ struct MaterialRecord {
   bool reflects, transmits;  ///< Somewhere, at least.
   bool painted;              ///< It is not the same everywhere: paint.h.
   bool gaps;                 ///< Some rays go on as if it were not there.
+  int light;                 ///< Of a light that stands in the world: which; otherwise -1.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -134,6 +135,8 @@ struct Witness {
   void (*color)(void* self, const SeenColor&);
 };
 
+struct EmitterTable;
+
 /// How rays are followed: which kernel renders the frame.
 enum class Tracing { whitted };
 inline constexpr int tracing_count = 1;
@@ -166,6 +169,8 @@ struct Frame {
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
   double minimum_distance;
   WhittedSettings whitted;
+  Attenuation path_attenuation{0, 0, 1};   ///< Of lights without extent, for paths.
+  const EmitterTable* emitters = nullptr;  ///< Likewise for paths: emitters.h.
 };
 
 struct Pixel {

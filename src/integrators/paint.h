@@ -22,6 +22,8 @@ struct Paint {
   double lobe;       ///< How much wider mirror rays leave than they came, radians.
   bool gap;          ///< There is no surface here.
   Vec3<double> N;    ///< Tilted by normal and bump maps; on the outside.
+  MetallicRoughnessOf<double, Rgb> rough;
+  double opacity, occlusion;
 };
 
 namespace detail {
@@ -74,17 +76,18 @@ inline Vec3<double> tilted(const Vec3<double>& N, const Vec3<double>& by, const 
 
 }  // namespace detail
 
-/// The surface `ids` at P, seen along `d` over `width`. N and G: the shading and the geometric normal,
+/// The surface `ids` at P, seen along `d` over `width`, as it is given: a metallic-roughness material's
+/// numbers are in `rough`, and `opacity` counts nowhere yet. N and G: the shading and the geometric normal,
 /// outside.
-inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uint32_t material,
-                   const Vec3<double>& P, const Vec3<double>& N, const Vec3<double>& G, const Vec3<double>& d,
-                   double width) {
+inline Paint paint_as_given(const Frame& frame, const HitIds<std::int32_t>& ids, std::uint32_t material,
+                            const Vec3<double>& P, const Vec3<double>& N, const Vec3<double>& G,
+                            const Vec3<double>& d, double width) {
   const MaterialRecord& m = frame.unpainted[material];
   const SurfaceCoordinates at = coordinates_at(frame.world, ids, P);
-  Paint out{m.ambient,   m.diffuse, m.specular,   m.emission, m.reflect, m.transmit,
-            m.shininess, m.ior,     at.curvature, 0,          false,     N};
-  MetallicRoughnessOf<double, Rgb> rough = m.rough;
-  double opacity = m.opacity * at.color[3], occlusion = 1;
+  Paint out{m.ambient, m.diffuse,    m.specular, m.emission, m.reflect, m.transmit, m.shininess,
+            m.ior,     at.curvature, 0,          false,      N,         m.rough,    m.opacity * at.color[3],
+            1};
+  MetallicRoughnessOf<double, Rgb>& rough = out.rough;
   const Rgb vertex_color{at.color[0], at.color[1], at.color[2]};
   if (m.is_rough) rough.base_color = rough.base_color * vertex_color;
   out.ka = out.ka * vertex_color, out.kd = out.kd * vertex_color;
@@ -125,10 +128,10 @@ inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
         out.emission = out.emission * color;
         break;
       case MapSlot::opacity:
-        opacity *= number;
+        out.opacity *= number;
         break;
       case MapSlot::occlusion:
-        occlusion *= 1 + map.strength * (number - 1);
+        out.occlusion *= 1 + map.strength * (number - 1);
         break;
       case MapSlot::normal: {
         const auto [T, B] = detail::tangents_at(at, map.uv_set, N);
@@ -181,19 +184,27 @@ inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
         break;
     }
   }
+  if (m.alpha == Alpha::mask) out.gap = out.opacity < m.alpha_cutoff, out.opacity = 1;
+  else out.opacity = min(max(out.opacity, 0.0), 1.0);
+  return out;
+}
+
+/// The same in the lecture's numbers: metal and roughness as Ka, Kd, Ks, n, and what lies behind a surface
+/// that is not opaque as part of `transmit`.
+inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uint32_t material,
+                   const Vec3<double>& P, const Vec3<double>& N, const Vec3<double>& G, const Vec3<double>& d,
+                   double width) {
+  const MaterialRecord& m = frame.unpainted[material];
+  Paint out = paint_as_given(frame, ids, material, P, N, G, d, width);
   if (m.is_rough) {
-    const LectureMaterial<double, Rgb> lecture = lecture_material(rough);
+    const LectureMaterial<double, Rgb> lecture = lecture_material(out.rough);
     out.ka = lecture.ka, out.kd = lecture.kd, out.ks = lecture.ks;
     out.reflect = lecture.reflect, out.transmit = lecture.transmit, out.n = lecture.n;
-    out.lobe = 2 * rough.roughness * rough.roughness;
+    out.lobe = 2 * out.rough.roughness * out.rough.roughness;
   }
-  out.ka = occlusion * out.ka;
-  if (m.alpha == Alpha::mask) {
-    out.gap = opacity < m.alpha_cutoff;
-    return out;
-  }
-  opacity = min(max(opacity, 0.0), 1.0);
-  if (opacity == 1) return out;
+  out.ka = out.occlusion * out.ka;
+  const double opacity = out.opacity;
+  if (out.gap || opacity == 1) return out;
   for (Rgb* color : {&out.ka, &out.kd, &out.ks, &out.emission, &out.reflect, &out.transmit})
     *color = opacity * *color;
   out.transmit = out.transmit + grey(1 - opacity);
@@ -220,14 +231,20 @@ inline Rgb share_through(const Frame& frame, const HitIds<std::int32_t>& ids, st
   return frame.whitted.colored_shadows ? here.transmit : Rgb{};
 }
 
+/// Where the picture around the scene is seen along a direction. Its middle lies along -z, before its turn; u
+/// grows to the right as seen from inside. `across`: the horizontal part of the direction.
+inline Vec2<double> environment_uv(const EnvironmentRecord& e, const Vec3<double>& along, double& across) {
+  const Vec3<double> d = e.z_up ? Vec3<double>{along.x, along.z, -along.y} : along;
+  across = sqrt(d.x * d.x + d.z * d.z);
+  return {0.5 + turns(d.x, -d.z) + e.turn, 0.5 + 2 * turns(d.y, across)};
+}
+
 /// What a ray sees that meets nothing; `spread`: the angle that it covers.
 inline Rgb background_along(const Frame& frame, const Vec3<double>& along, double spread) {
-  if (!frame.environment.texture.levels) return frame.background;
   const EnvironmentRecord& e = frame.environment;
-  const Vec3<double> d = e.z_up ? Vec3<double>{along.x, along.z, -along.y} : along;
-  // The image's middle lies along -z, before its turn; u grows to the right as seen from inside.
-  const double across = sqrt(d.x * d.x + d.z * d.z), round = turns(d.x, -d.z);
-  const Vec2<double> uv{0.5 + round + e.turn, 0.5 + 2 * turns(d.y, across)};
+  if (!e.texture.levels) return frame.background;
+  double across;
+  const Vec2<double> uv = environment_uv(e, along, across);
   const double turn = 0.5 * spread * (0.5 / 3.141592653589793);
   const Footprint footprint{{min(turn / max(across, 1e-6), 0.5), 0}, {0, 2 * turn}};
   TextureMap map;
