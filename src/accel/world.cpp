@@ -107,7 +107,7 @@ class Builder {
     for (const Object& object : scene_.objects) ++shown[object.shape];
 
     world_.bvhs.emplace_back();  // the world's own, built last
-    std::vector<std::int64_t> bvh_of_shape(scene_.shapes.size(), -1);
+    std::vector<TreeOfShape> tree_of_shape(scene_.shapes.size());
     std::size_t at_top = 0;
     for (const Object& object : scene_.objects) {
       const Shape& shape = scene_.shapes[object.shape];
@@ -129,14 +129,15 @@ class Builder {
         world_.geometries[geometry].object = index;
         add_boxes(geometry, top);
       } else {
-        std::int64_t& bvh = bvh_of_shape[object.shape];
-        if (bvh < 0) {
+        TreeOfShape& tree = tree_of_shape[object.shape];
+        if (tree.bvh < 0) {
           Pages<BoxedPrimitive> boxes(primitive_count(shape));
-          add_boxes(add_geometry(shape, {}), boxes);
-          bvh = std::int64_t(world_.bvhs.size());
+          tree.geometry = add_geometry(shape, {});
+          add_boxes(tree.geometry, boxes);
+          tree.bvh = std::int64_t(world_.bvhs.size());
           world_.bvhs.push_back(build_tree(std::move(boxes), quality_, world_));
         }
-        add_instance(object, index, std::uint32_t(bvh), top);
+        add_instance(object, index, tree, top);
       }
     }
     close_joined(top);
@@ -154,6 +155,12 @@ class Builder {
     if (shown > 1 && !small) return false;
     return std::holds_alternative<Mesh>(shape.primitives) || uniform_scale(t) > 0;
   }
+
+  /// Of a shape that is shown by instances.
+  struct TreeOfShape {
+    std::int64_t bvh = -1;
+    std::int32_t geometry = -1;
+  };
 
   // ---- shapes of few primitives, of which a scene may have thousands: one geometry for all of a kind
 
@@ -324,16 +331,17 @@ class Builder {
     }
   }
 
-  void add_instance(const Object& object, std::uint32_t index, std::uint32_t bvh,
+  void add_instance(const Object& object, std::uint32_t index, const TreeOfShape& tree,
                     Pages<BoxedPrimitive>& boxes) {
-    const Bvh& root = world_.bvhs[bvh];
+    const Bvh& root = world_.bvhs[std::size_t(tree.bvh)];
     Bounds b;
     for (int corner = 0; corner < 8; ++corner)
       b.add(transform_point(object.world_from_object, {double(corner & 1 ? root.upper.x : root.lower.x),
                                                        double(corner & 2 ? root.upper.y : root.lower.y),
                                                        double(corner & 4 ? root.upper.z : root.lower.z)}));
     boxes.push_back(boxed({instance_geometry, std::int32_t(world_.instances.size())}, b));
-    world_.instances.push_back({object.world_from_object, inverse(object.world_from_object), bvh, index});
+    world_.instances.push_back({object.world_from_object, inverse(object.world_from_object),
+                                std::uint32_t(tree.bvh), index, tree.geometry});
   }
 
   void lay_out_spheres() {

@@ -94,8 +94,9 @@ struct Bvh {
 /// A shape's tree, placed by an object.
 struct Instance {
   Transform world_from_object, object_from_world;
-  std::uint32_t bvh;     ///< Index into World::bvhs.
-  std::uint32_t object;  ///< Index into World::objects.
+  std::uint32_t bvh;      ///< Index into World::bvhs.
+  std::uint32_t object;   ///< Index into World::objects.
+  std::int32_t geometry;  ///< What its tree holds.
 };
 
 struct ObjectRecord {

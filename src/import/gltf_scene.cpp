@@ -9,7 +9,6 @@ namespace lambent::gltf {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double degrees_per_radian = 180 / pi;
 
 /// The scene's nodes that are seen, parents before their children.

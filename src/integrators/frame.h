@@ -22,6 +22,8 @@ struct MaterialRecord {
   bool reflects, transmits;  ///< Somewhere, at least.
   bool painted;              ///< It is not the same everywhere: paint.h.
   bool gaps;                 ///< Some rays go on as if it were not there.
+  int light;                 ///< Of a light that stands in the world: which; otherwise -1.
+  int scatter;               ///< For paths: ScatterKind.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -164,6 +166,8 @@ struct Witness {
   void (*search)(void* self, const SeenSearch&);
 };
 
+struct EmitterTable;
+
 /// How rays are followed: which kernel renders the frame.
 enum class Tracing { whitted, path };
 inline constexpr int tracing_count = 2;
@@ -197,7 +201,8 @@ struct Frame {
   double minimum_distance;
   WhittedSettings whitted;
   PathSettings path;
-  Attenuation path_attenuation{0, 0, 1};  ///< Of lights without extent, for paths.
+  Attenuation path_attenuation{0, 0, 1};   ///< Of lights without extent, for paths.
+  const EmitterTable* emitters = nullptr;  ///< Likewise for paths: emitters.h.
 };
 
 struct Pixel {

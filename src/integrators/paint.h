@@ -231,14 +231,20 @@ inline Rgb share_through(const Frame& frame, const HitIds<std::int32_t>& ids, st
   return frame.whitted.colored_shadows ? here.transmit : Rgb{};
 }
 
+/// Where the picture around the scene is seen along a direction. Its middle lies along -z, before its turn; u
+/// grows to the right as seen from inside. `across`: the horizontal part of the direction.
+inline Vec2<double> environment_uv(const EnvironmentRecord& e, const Vec3<double>& along, double& across) {
+  const Vec3<double> d = e.z_up ? Vec3<double>{along.x, along.z, -along.y} : along;
+  across = sqrt(d.x * d.x + d.z * d.z);
+  return {0.5 + turns(d.x, -d.z) + e.turn, 0.5 + 2 * turns(d.y, across)};
+}
+
 /// What a ray sees that meets nothing; `spread`: the angle that it covers.
 inline Rgb background_along(const Frame& frame, const Vec3<double>& along, double spread) {
-  if (!frame.environment.texture.levels) return frame.background;
   const EnvironmentRecord& e = frame.environment;
-  const Vec3<double> d = e.z_up ? Vec3<double>{along.x, along.z, -along.y} : along;
-  // The image's middle lies along -z, before its turn; u grows to the right as seen from inside.
-  const double across = sqrt(d.x * d.x + d.z * d.z), round = turns(d.x, -d.z);
-  const Vec2<double> uv{0.5 + round + e.turn, 0.5 + 2 * turns(d.y, across)};
+  if (!e.texture.levels) return frame.background;
+  double across;
+  const Vec2<double> uv = environment_uv(e, along, across);
   const double turn = 0.5 * spread * (0.5 / 3.141592653589793);
   const Footprint footprint{{min(turn / max(across, 1e-6), 0.5), 0}, {0, 2 * turn}};
   TextureMap map;

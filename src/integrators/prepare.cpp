@@ -45,6 +45,7 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   record.one_sided = material.one_sided;
   record.painted = record.map_count > 0;
   record.gaps = material.one_sided || material.alpha == Alpha::mask;
+  record.light = -1;
   record.reflects = !is_black(material.reflect);
   record.transmits = may_transmit(material);
   if (const auto& m = material.metallic_roughness) {

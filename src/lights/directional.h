@@ -18,9 +18,12 @@ struct DirectionalLight {
 inline namespace LAMBENT_ISA {
 
 template <class F> LightSample<F, Color<F>> sample(const DirectionalLight& light, const Vec3<F>&, F, F) {
-  return {-normalize(broadcast<F>(light.direction)), F(__builtin_inf()),
-          emitted<F>(light.color, light.intensity), F(0)};
+  const F infinity(__builtin_inf());
+  return {-normalize(broadcast<F>(light.direction)), infinity, emitted<F>(light.color, light.intensity), F(0),
+          infinity};
 }
+
+inline Beam beam_of(const DirectionalLight& light) { return {true, {}, normalize(light.direction), 0}; }
 
 }  // namespace LAMBENT_ISA
 

@@ -28,6 +28,8 @@ inline bool reaches(const PointLight& light, const Reach& box) {
 }
 inline bool has_limits(const PointLight& light) { return light.max_distance > 0; }
 
+inline Beam beam_of(const PointLight& light) { return {false, light.position, {0, 0, 1}, 180}; }
+
 }  // namespace LAMBENT_ISA
 
 template <>

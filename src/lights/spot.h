@@ -56,6 +56,10 @@ inline bool reaches(const SpotLight& light, const Reach& box) {
 }
 inline bool has_limits(const SpotLight& light) { return light.angle < 180 || light.max_distance > 0; }
 
+inline Beam beam_of(const SpotLight& light) {
+  return {false, light.position, normalize(light.target - light.position), light.angle / 2};
+}
+
 }  // namespace LAMBENT_ISA
 
 template <>
