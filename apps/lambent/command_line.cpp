@@ -327,7 +327,8 @@ CLI::App* add_compare(CLI::App& program, CompareCommand& compare, Shorthands& sh
   CLI::App* command = add_command(program, "compare", "Show a scene under several models, side by side",
                                   "  lambent compare scene.yaml\n"
                                   "  lambent compare scene.yaml --models conventional,phong -o sheet.png\n"
-                                  "  lambent compare bunny.obj --difference --size 320x240 --samples 4");
+                                  "  lambent compare bunny.obj --difference --size 320x240 --samples 4\n"
+                                  "  lambent compare scene.yaml --ladder");
   add_input(command, compare.input);
   command
       ->add_option("-o,--output", compare.outputs,
@@ -351,6 +352,10 @@ CLI::App* add_compare(CLI::App& program, CompareCommand& compare, Shorthands& sh
   add_reading_options(command, shorthands.load);
   add_integer(command, "--columns", compare.columns, 1,
               "Pictures side by side (default: so many that\nthe sheet is near 16:9)");
+  command
+      ->add_flag("--ladder", compare.ladder,
+                 "In place of models, every step from Lambert's\ncosine to path tracing, and what each adds")
+      ->excludes(command->get_option("--models"));
   command->add_flag("--difference", compare.difference,
                     "Below each picture, where it is brighter than\nthe first one and where darker; prints a "
                     "table");

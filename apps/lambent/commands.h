@@ -37,7 +37,8 @@ struct CompareCommand {
   LoadOptions load;
   std::string size;  ///< Of each picture, as the scene file says it; empty: the scene's, or smaller.
   int threads = 0;
-  int columns = 0;  ///< 0: chosen to suit.
+  int columns = 0;      ///< 0: chosen to suit.
+  bool ladder = false;  ///< Every step from Lambert's cosine to the rendering equation, in place of models.
   bool difference = false;
   bool own_attenuation = false;  ///< Each model's, whatever the scene says.
   bool quiet = false;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "commands.h"
+#include "compare.h"
 #include "console.h"
 #include "files.h"
 #include "interrupt.h"
@@ -22,10 +22,6 @@ namespace {
 /// Pictures of a size that was not asked for are at most this wide: two or three of them fit a screen.
 constexpr int widest_picture = 480;
 constexpr std::size_t most_warnings = 20;
-
-std::string default_output(const std::string& input) {
-  return std::filesystem::path(input).stem().string() + "-compare.png";
-}
 
 // ---- which models
 // -----------------------------------------------------------------------------------------------------
@@ -58,15 +54,6 @@ std::vector<Entry> models_named(const std::vector<std::string>& names) {
 
 // ---- what is rendered
 // -------------------------------------------------------------------------------------------------
-
-/// The size of each picture: what --size says, else the scene's, made smaller where it is wider than
-/// widest_picture.
-std::string picture_size(const CompareCommand& command, const SceneSummary& scene) {
-  if (!command.size.empty()) return command.size;
-  const int width = std::min(scene.width, widest_picture);
-  const long height = std::lround(double(scene.height) * width / scene.width);
-  return fmt::format("[{}, {}]", width, std::max(1l, height));
-}
 
 /// Everything that makes the picture of `model`, in the order in which it is set.
 LoadOptions options_for(const CompareCommand& command, const Entry& model, const std::string& size) {
@@ -270,7 +257,19 @@ std::string derivation_of_largest(const CompareCommand& command, const std::vect
 
 }  // namespace
 
+std::string sheet_output(const std::string& input, const std::string& suffix) {
+  return std::filesystem::path(input).stem().string() + suffix;
+}
+
+std::string picture_size(const CompareCommand& command, const SceneSummary& scene) {
+  if (!command.size.empty()) return command.size;
+  const int width = std::min(scene.width, widest_picture);
+  const long height = std::lround(double(scene.height) * width / scene.width);
+  return fmt::format("[{}, {}]", width, std::max(1l, height));
+}
+
 ExitCode run(const CompareCommand& command) {
+  if (command.ladder) return run_ladder(command);
   // Whatever can be known to fail is looked at before the work, not after it.
   const std::vector<Entry> models = models_named(command.models);
   if (command.difference && models.size() < 2)
@@ -281,7 +280,7 @@ ExitCode run(const CompareCommand& command) {
           "--set illumination.model says what --models varies",
           fmt::format("for a picture of one model: 'lambent render {} --model {}'", command.input, value));
   const std::vector<std::string> outputs =
-      command.outputs.empty() ? std::vector<std::string>{default_output(command.input)} : command.outputs;
+      command.outputs.empty() ? std::vector{sheet_output(command.input, "-compare.png")} : command.outputs;
   for (const std::string& output : outputs) check_image_output(output);
 
   const auto start = std::chrono::steady_clock::now();

@@ -47,6 +47,8 @@ struct ModelInfo {
   AmbientAttenuation ambient_attenuation = AmbientAttenuation::none;  ///< Likewise, of the ambient term.
   bool unfaded_light =
       false;  ///< Whether it reads Arriving::Il and Arriving::faded, which are not made for others.
+  bool half_vector =
+      false;  ///< Whether its highlight is by N.H; path tracing takes Blinn's lobe then, else Phong's.
   ModelParameter parameters[max_model_parameters] = {};  ///< Ends with the first that has no name.
 };
 

@@ -58,8 +58,7 @@ template <bool Seen> struct Work : Wavefront {
         if constexpr (Seen) {
           if (depth == 1 && task.first_hits) note_first_hits(block.at[i], block.hits[i]);
         }
-        with_scatter_kind(ScatterKind(way_to_shade_of(group)),
-                          [&]<ScatterKind kind>() { shade<kind>(block.at[i], block.hits[i]); });
+        shade(ScatterKind(way_to_shade_of(group)), block.at[i], block.hits[i]);
       }
     }
   }
@@ -73,7 +72,7 @@ template <bool Seen> struct Work : Wavefront {
   struct Draw {
     F x, y;
   };
-  Draw draw(const Lanes& at, Pair pair) const {
+  [[gnu::noinline]] Draw draw(const Lanes& at, Pair pair) const {
     double x[lanes], y[lanes];
     for (int k = 0; k < lanes; ++k) {
       const std::uint64_t number = first_of_batch + scratch.rays.sample[at.ray[k]];
@@ -81,7 +80,8 @@ template <bool Seen> struct Work : Wavefront {
       const auto sample =
           std::uint32_t(task.first_sample) + std::uint32_t(number % std::uint64_t(samples_per_pixel()));
       const std::uint64_t place =
-          hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y));
+          hashed(hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y)) +
+                 std::uint64_t(frame.path.seed));
       const Vec2<double> point =
           random_point(sample, hashed(place + std::uint64_t((depth - 1) * pairs_per_vertex + pair)));
       x[k] = point.x, y[k] = point.y;
@@ -110,17 +110,18 @@ template <bool Seen> struct Work : Wavefront {
     return {rays.dx[ray], rays.dy[ray], rays.dz[ray]};
   }
 
-  void meet_background(std::uint32_t ray) {
+  [[gnu::noinline]] void meet_background(std::uint32_t ray) {
     const RayQueue& rays = scratch.rays;
     const double found = rays.density[ray];
     const Vec3<double> d = direction_of(ray);
     // What a light sample would bring is not blurred either.
     const Rgb sky = background_along(frame, d, found > 0 ? 0 : rays.spread[ray]);
-    double weight = 1;
-    if (found > 0)
-      weight =
-          weight_against(found, background_density(frame, origin_of_light(ray), normal_at_origin(ray), d));
-    meet(ray, sky, weight, background());
+    double searched = 0, weight = 1;
+    if (found > 0) {
+      searched = background_density(frame, origin_of_light(ray), normal_at_origin(ray), d);
+      weight = weight_against(found, searched);
+    }
+    meet(ray, sky, searched, weight, background());
   }
 
   /// Light that a path has come upon by itself. `source`: which layer.
@@ -202,6 +203,21 @@ template <bool Seen> struct Work : Wavefront {
     return s;
   }
 
+  void shade(ScatterKind kind, const Lanes& at, const Hits& hits) {
+    switch (kind) {
+      case ScatterKind::lecture_phong:
+        return shade<ScatterKind::lecture_phong>(at, hits);
+      case ScatterKind::lecture_blinn:
+        return shade<ScatterKind::lecture_blinn>(at, hits);
+      case ScatterKind::metallic_roughness:
+        return shade<ScatterKind::metallic_roughness>(at, hits);
+      case ScatterKind::metal:
+      case ScatterKind::glass:
+        break;
+    }
+    __builtin_unreachable();
+  }
+
   template <ScatterKind kind> void shade(const Lanes& at, const Hits& hits) {
     const Draw choice = draw(at, choices), chance = draw(at, chances);
     const F opacity = hits.painted ? hits.painted->opacity : given(hits, [](const MaterialRecord& m) {
@@ -217,12 +233,19 @@ template <bool Seen> struct Work : Wavefront {
     }
     send_out(at, hits, lane_bits(solid));
     const ScatterSurface<F, C> s = surface_of<kind>(hits);
-    look_for_light<kind>(at, hits, s, solid, choice.x);
-    if (depth < frame.path.max_depth) go_on<kind>(at, hits, s, solid, choice.y, chance.x);
+    const Scattering<kind, F, C> scattering(s);
+    // Light is looked for on the side that the normal shows; on both where the surface lets some through.
+    Vec3<F> facing = s.N;
+    const Vec3<F> nowhere{F(0), F(0), F(0)};
+    if constexpr (kind == ScatterKind::glass) facing = nowhere;
+    if constexpr (kind == ScatterKind::metallic_roughness)
+      facing = select(s.rough.transmission > F(0), nowhere, s.N);
+    look_for_light(at, hits, scattering, facing, solid, choice.x);
+    if (depth < frame.path.max_depth) go_on(at, hits, scattering, facing, solid, choice.y, chance.x);
   }
 
   /// What surfaces send out themselves.
-  void send_out(const Lanes& at, const Hits& hits, std::uint32_t asked) {
+  [[gnu::noinline]] void send_out(const Lanes& at, const Hits& hits, std::uint32_t asked) {
     const C emission = hits.painted ? hits.painted->emission
                                     : given_color(hits, [](const MaterialRecord& m) { return m.emission; });
     asked &= ~lane_bits(Truth(is_black(emission)));
@@ -244,10 +267,16 @@ template <bool Seen> struct Work : Wavefront {
 
   // ---- light that is looked for
 
-  template <ScatterKind kind>
-  LAMBENT_FLATTEN void look_for_light(const Lanes& at, const Hits& hits, const ScatterSurface<F, C>& s,
-                                      const Truth& solid, const F& pick) {
-    const Truth asked = both(solid, Truth(!only_perfect<kind>(s)));
+  // One copy for all kinds of surfaces: a kernel takes long enough to compile.
+  [[gnu::noinline]] EmitterSample light_at(const Vec3<double>& P, const Vec3<double>& N, double pick,
+                                           double u, double v) const {
+    return sample_emitters(frame, P, N, pick, u, v);
+  }
+
+  template <class Material>
+  [[gnu::noinline]] void look_for_light(const Lanes& at, const Hits& hits, const Material& scattering,
+                                        const Vec3<F>& facing, const Truth& solid, const F& pick) {
+    const Truth asked = both(solid, Truth(!scattering.only_perfect()));
     if (!any(asked)) return;
     double L[3][lanes] = {}, brings[color_channels][lanes] = {}, density[lanes] = {}, clear[lanes] = {};
     double distance[lanes] = {};
@@ -255,14 +284,14 @@ template <bool Seen> struct Work : Wavefront {
     const Draw point = draw(at, light_point);
     for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
       const int k = __builtin_ctz(left);
-      const EmitterSample e = sample_emitters(frame, lane_vector(hits.P, k), lane_vector(s.N, k),
-                                              lane(pick, k), lane(point.x, k), lane(point.y, k));
+      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
+                                       lane(point.x, k), lane(point.y, k));
       L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
       for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
       density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, source[k] = e.light;
     }
     const Vec3<F> to_light{F::load(L[0]), F::load(L[1]), F::load(L[2])};
-    const Evaluated<F, C> f = evaluate<kind>(s, to_light);
+    const Evaluated<F, C> f = scattering.evaluate(to_light);
     C light;
     for (int c = 0; c < color_channels; ++c) light[c] = f.value[c] * F::load(brings[c]);
     const F found = F::load(density);
@@ -311,8 +340,8 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   /// Which lanes the light reaches that was looked for. What is not wholly opaque leaves a part of it.
-  std::uint32_t shadows(const Vec3<F>& start, const Vec3<F>& L, const Query& t_far, const Truth& lit,
-                        C& light) {
+  [[gnu::noinline]] std::uint32_t shadows(const Vec3<F>& start, const Vec3<F>& L, const Query& t_far,
+                                          const Truth& lit, F& share) {
     const QueryRay<Query> rays(number_cast<float>(start), number_cast<float>(L));
     const std::uint32_t asked = lane_bits(lit);
     counts.shadow += std::uint64_t(__builtin_popcount(asked));
@@ -347,7 +376,7 @@ template <bool Seen> struct Work : Wavefront {
   // ---- where paths go on
 
   /// Leaves a surface behind that is not there for this path.
-  void pass_on(const Lanes& at, const Hits& hits, int k) {
+  [[gnu::noinline]] void pass_on(const Lanes& at, const Hits& hits, int k) {
     if (depth >= frame.path.max_depth) return;
     const RayQueue& rays = scratch.rays;
     const std::uint32_t ray = at.ray[k];
@@ -385,11 +414,11 @@ template <bool Seen> struct Work : Wavefront {
     rays.qx[i] = start.x, rays.qy[i] = start.y, rays.qz[i] = start.z;
   }
 
-  template <ScatterKind kind>
-  LAMBENT_FLATTEN void go_on(const Lanes& at, const Hits& hits, const ScatterSurface<F, C>& s,
-                             const Truth& solid, const F& which, const F& chance) {
+  template <class Material>
+  [[gnu::noinline]] void go_on(const Lanes& at, const Hits& hits, const Material& scattering,
+                               const Vec3<F>& facing, const Truth& solid, const F& which, const F& chance) {
     const Draw uv = draw(at, direction);
-    const Scattered<F, C> next = scatter<kind>(s, uv.x, uv.y, which);
+    const Scattered<F, C> next = scattering.scatter(uv.x, uv.y, which);
     C weight;
     for (int c = 0; c < color_channels; ++c) weight[c] = at.load(scratch.rays.weight[c]) * next.weight[c];
     Truth alive = both(solid, Truth(!is_black(weight)));
@@ -425,7 +454,7 @@ template <bool Seen> struct Work : Wavefront {
                    lane_bits(next.through) >> k & 1 ? Way::refraction : Way::reflection,
                    lane_color(next.weight, k), lane(survival, k));
       }
-      const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(s.N, k);
+      const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(facing, k);
       to.from_x[i] = P.x, to.from_y[i] = P.y, to.from_z[i] = P.z;
       to.from_nx[i] = N.x, to.from_ny[i] = N.y, to.from_nz[i] = N.z;
       if (frame.cones) {

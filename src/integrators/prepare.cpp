@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "scattering/surface.h"
 #include "scene/uniform_material.h"
 
 namespace lambent {
@@ -46,10 +47,12 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   record.painted = record.map_count > 0;
   record.gaps = material.one_sided || material.alpha == Alpha::mask;
   record.light = -1;
+  record.scatter = int(info(model).half_vector ? ScatterKind::lecture_blinn : ScatterKind::lecture_phong);
   record.reflects = !is_black(material.reflect);
   record.transmits = may_transmit(material);
   if (const auto& m = material.metallic_roughness) {
     record.is_rough = true;
+    record.scatter = int(ScatterKind::metallic_roughness);
     record.rough = numbers_of(*m);
     record.reflects = true;
     record.ior = 1;  // thin, as KHR_materials_transmission has it
@@ -65,6 +68,7 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
 MaterialRecord material_record(const Scene& scene, const Material& material, const MaterialRecord& before) {
   MaterialRecord record = unpainted(scene, uniform_material(material));
   record.maps = nullptr;  // the copy's
+  record.scatter = before.scatter;
   if (before.is_rough) record.lobe = 2 * before.rough.roughness * before.rough.roughness;
   if (before.painted) record.reflects = before.reflects, record.transmits = before.transmits;
   return record;
@@ -186,6 +190,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;
     if (scene.illumination.attenuation) frame.path_attenuation = *scene.illumination.attenuation;
+    prepared->emitters = prepare_emitters(frame, prepared->world);
+    frame.emitters = &prepared->emitters->table;
   }
   return prepared;
 }

@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "integrators/frame.h"
+#include "integrators/prepare_emitters.h"
 
 namespace lambent {
 
@@ -15,6 +15,7 @@ struct PreparedFrame {
   std::vector<AnyLight> lights;
   std::vector<MaterialRecord> materials, unpainted;
   std::vector<TextureRecord> textures;
+  std::unique_ptr<PreparedEmitters> emitters;  ///< Of paths.
 };
 
 /// Lays a scene out for the kernels; builds its trees.

@@ -1,29 +1,14 @@
 #pragma once
-// Directions: axes around one, and those that lie around it.
+// Directions that lie around others: by lobes, mirrored, refracted.
 
 #include "math/color.h"
-#include "math/functions.h"
-#include "math/pack.h"
-#include "math/vec.h"
+#include "math/directions.h"
 
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
-inline constexpr double pi = 3.14159265358979323846, one_over_pi = 0.31830988618379067154;
+inline constexpr double one_over_pi = 0.31830988618379067154;
 
-/// Three unit vectors at right angles.
-template <class F> struct Axes { Vec3<F> x, y, z; };
-
-/// With z as the third, without a root and with one division (Duff et al., Building an orthonormal basis,
-/// revisited, JCGT 6(1), 2017).
-template <class F> Axes<F> axes_around(const Vec3<F>& z) {
-  const F sign = select(z.z >= F(0), F(1), F(-1));
-  const F a = F(-1) / (sign + z.z), b = z.x * z.y * a;
-  return {{F(1) + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
-}
-template <class F> Vec3<F> to_world(const Axes<F>& axes, const Vec3<F>& v) {
-  return v.x * axes.x + v.y * axes.y + v.z * axes.z;
-}
 /// The unit vector with that cosine to axes.z, u of a turn around it.
 template <class F> Vec3<F> direction_around(const Axes<F>& axes, const F& cosine, const F& u) {
   const F sine = sqrt(max((F(1) - cosine) * (F(1) + cosine), F(0)));

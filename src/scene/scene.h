@@ -181,6 +181,7 @@ struct PathSettings {
   double clamp = 0;
   double until = 0;
   int max_samples = 65536;
+  int seed = 0;
 };
 template <>
 inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
@@ -210,6 +211,11 @@ inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
      {1, 1 << 20},
      "",
      "With `until`: the most samples of a pixel, whatever noise is left."},
+    {"seed",
+     &PathSettings::seed,
+     {0, 1e9},
+     "",
+     "Another number makes another picture of the same: other noise."},
 };
 
 /// What a debug view makes a colour of: something about what the eye's ray meets first, or how many rays were

@@ -19,6 +19,7 @@ struct BlinnPhong {
           "the highlight is about twice as wide; four times n brings it near to phong's.",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
+      .half_vector = true,
   };
   template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const Vec3<F> sum = light.L + s.V;

@@ -20,6 +20,7 @@ struct BlinnPhongHalfway {
           "V, and its power n dims the highlight the more, the farther light and eye are apart.",
       .attenuation = attenuation_1_over_r,
       .ambient_attenuation = AmbientAttenuation::one_over_R,
+      .half_vector = true,
   };
   template <class F, class C> static Terms<C> evaluate(const Surface<F, C>& s, const Arriving<F, C>& light) {
     const Vec3<F> H = F(0.5) * (light.L + s.V);

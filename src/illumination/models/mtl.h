@@ -39,6 +39,7 @@ struct Mtl {
           "9 trace the ray instead), highlights that make glass more opaque (4, 9), and the alpha of 10, "
           "which would hold "
           "its shadows.",
+      .half_vector = true,
       .parameters = {{"illum", 2, 0, 10, "", "Which terms there are; the number that stands in MTL files.",
                       true}},
   };

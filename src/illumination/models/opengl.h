@@ -30,6 +30,7 @@ struct OpenGl {
           "here, and nothing is clamped to [0, 1]. Every point is lit, where OpenGL lights vertices and "
           "blends between "
           "them.",
+      .half_vector = true,
       .parameters = {{"local_viewer", 0, 0, 1, "",
                       "1: the highlight is seen from the eye; 0: from infinitely far.", true},
                      {"two_sided", 0, 0, 1, "",

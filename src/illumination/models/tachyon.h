@@ -25,6 +25,7 @@ struct Tachyon {
           "colour, Ks its Phong with `PHONG PLASTIC`; `METAL`, which tints highlights by the surface, is "
           "left out.",
       .unfaded_light = true,
+      .half_vector = true,
       .parameters = {{"highlight", 0, 0, 2, "",
                       "f: 0 is Blinn's ((N.H)+)^n, 1 is Phong's ((R.V)+)^n, 2 is the fast one, t / (n - n t "
                       "+ t) with t = "
