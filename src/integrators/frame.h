@@ -23,6 +23,7 @@ struct MaterialRecord {
   bool painted;              ///< It is not the same everywhere: paint.h.
   bool gaps;                 ///< Some rays go on as if it were not there.
   int light;                 ///< Of a light that stands in the world: which; otherwise -1.
+  bool dark_inside;          ///< Its emission is seen from outside alone.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -106,20 +107,22 @@ struct SeenHit {
 };
 struct SeenLight {
   std::uint32_t ray;
-  int light;
+  int point;   ///< Index into Frame::light_points.
   bool open;   ///< False: behind the surface, dark this way, or blocked.
   bool asked;  ///< Whether a shadow ray was thrown.
   Vec3<double> L;
   double r;
-  Rgb I;         ///< Il, before attenuation.
-  double faded;  ///< The attenuation.
-  Rgb share;     ///< What transmitting surfaces leave of it.
-  Rgb arriving;  ///< All of these multiplied: what the model is handed.
+  Rgb I;                ///< Il, before attenuation; as much as the point counts.
+  double faded;         ///< The attenuation.
+  Rgb share;            ///< What transmitting surfaces leave of it.
+  Rgb arriving;         ///< All of these multiplied: what the model is handed.
+  Vec3<double> toward;  ///< The shadow ray goes along this unit vector,
+  double far;           ///< and ends there.
 };
 struct SeenTerm {
   std::uint32_t ray;
   Term term;
-  int light;  ///< -1: of no light.
+  int point;  ///< Index into Frame::light_points; -1: of no light.
   Rgb color;
 };
 struct SeenColor {
@@ -133,6 +136,14 @@ struct Witness {
   void (*light)(void* self, const SeenLight&);
   void (*term)(void* self, const SeenTerm&);
   void (*color)(void* self, const SeenColor&);
+};
+
+/// A point of a light, as the lecture's sum over lights sees it: lights without extent have one.
+struct LightPoint {
+  std::int32_t light;  ///< Index into Frame::lights.
+  double u, v;         ///< Which of its points.
+  double share;        ///< How much it counts: 1 / how many there are.
+  bool extended;       ///< Whether the light has extent.
 };
 
 struct EmitterTable;
@@ -154,6 +165,8 @@ struct Frame {
   int samples;
   const AnyLight* lights;
   int light_count;
+  const LightPoint* light_points;  ///< Light by light.
+  int light_point_count;
   bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
   const MaterialRecord* materials;
   const MaterialRecord* unpainted;  ///< Likewise, as painting begins: before opacity and conversions.
@@ -162,8 +175,9 @@ struct Frame {
   /// Whether rays carry how wide they are: there are textures. Eye rays begin with these.
   bool cones = false;
   double eye_width = 0, eye_spread = 0;
-  bool any_gaps = false;   ///< Whether a material has gaps,
-  bool any_masks = false;  ///< and light goes through them.
+  bool any_gaps = false;         ///< Whether a material has gaps,
+  bool any_masks = false;        ///< and light goes through them.
+  bool any_dark_inside = false;  ///< Whether a material is.
   FadingRecord fading[model_count];
   Rgb ambient, background;
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
@@ -240,7 +254,7 @@ struct Scratch {
   ColorQueue samples;
   Column<double> layers;  ///< Layer by layer, channel by channel, a batch of samples.
   std::uint32_t layer_columns = 0;
-  Column<std::uint32_t> reaching;  ///< The lights that may reach some of the hits at hand.
+  Column<std::uint32_t> reaching;  ///< The points of lights that may reach some of the hits at hand.
   Column<std::uint32_t>
       open;  ///< For each of these and each packet of a block a bit for each lane that it reaches.
 

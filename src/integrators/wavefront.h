@@ -417,8 +417,12 @@ struct Wavefront {
                         : of_materials(hits, [](const MaterialRecord& m) { return m.shininess; });
   }
   C emission_of(const Hits& hits) const {
-    return hits.painted ? hits.painted->emission
-                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    if (hits.painted) return hits.painted->emission;
+    const C emission = colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    if (!frame.any_dark_inside) return emission;
+    const Truth bright =
+        of_materials(hits, [](const MaterialRecord& m) { return m.dark_inside ? 0.0 : 1.0; }) > F(0);
+    return select(either(hits.outside, bright), emission, grey(F(0)));
   }
   C reflect_of(const Hits& hits) const {
     return hits.painted ? hits.painted->reflect
@@ -445,13 +449,38 @@ struct Wavefront {
     return result;
   }
 
-  static QueryRay<Query> shadow_ray(const Hits& hits, const Vec3<F>& L) {
-    return {number_cast<float>(hits.front), number_cast<float>(L)};
+  /// Shadow rays of a packet.
+  struct ShadowRays {
+    QueryRay<Query> rays;
+    Query t_far;
+  };
+  /// From `start`, off the surface, towards the light of P. To a light with extent the ray ends where the
+  /// light says, at P + clear L, though it starts beside P: lifted, it would otherwise go through the light.
+  static ShadowRays shadow_rays(const Vec3<F>& start, const Vec3<F>& P, const LightSample<F, C>& light,
+                                bool extended) {
+    if (!extended)
+      return {{number_cast<float>(start), number_cast<float>(light.L)}, number_cast<float>(light.r)};
+    const Vec3<F> way = P + light.clear * light.L - start;
+    const F r = length(way);
+    const Vec3<F> d = select(r > F(0), (F(1) / r) * way, light.L);
+    return {{number_cast<float>(start), number_cast<float>(d)}, number_cast<float>(r)};
   }
 
   bool all_opaque() const {
     return !frame.any_transmits || (!frame.whitted.colored_shadows && !frame.any_masks);
   }
+  /// Closes the lanes of `open` where something stands in the way before t_far: together where the rays go
+  /// together, and one by one where they do not, as what scattered rays have found lies anywhere.
+  void find_open_lanes(const QueryRay<Query>& rays, const Query& t_far, bool opaque,
+                       MaskOf<Query>& open) const {
+    if (PacketBeam::suits(&rays, &t_far, 1, frame.world.bvhs[0].extent))
+      return find_open(frame.world, &rays, &t_far, 1, opaque, &open);
+    for (std::uint32_t asked = lane_bits(open); asked; asked &= asked - 1) {
+      const int k = __builtin_ctz(asked);
+      if (find_occluded(frame.world, lane(rays, k), true, lane(t_far, k), opaque)) set_lane(open, k, false);
+    }
+  }
+
   void tell(const QueryRay<Query>& rays, std::uint32_t asked, const Query& t_far) const {
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);
@@ -461,9 +490,9 @@ struct Wavefront {
     }
   }
 
-  /// What transmitting surfaces leave of light along a ray: the product of their `transmit`, straight on, in
-  /// the order in which the ray meets them.
-  Rgb transmittance_along(QueryRay<float> ray, float t_far) const {
+  /// What surfaces leave of light along a ray: the product of share(ids, material, surface point, direction),
+  /// straight on, in the order in which the ray meets them.
+  template <class Share> Rgb what_passes(QueryRay<float> ray, float t_far, const Share& share) const {
     const Vec3<double> d = normalize(cast<double>(ray.d));
     double left = t_far;
     Rgb result = grey(1.0);
@@ -472,10 +501,9 @@ struct Wavefront {
       find_closest(frame.world, ray, true, hit);
       if (hit.ids.geometry < 0) return result;
       const SurfacePoint<double> s = surface_at(frame.world, hit.ids, cast<double>(ray.o), d, hit.t);
-      result = result *
-               share_through(frame, hit.ids,
-                             material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive),
-                             s, d);
+      result = result * share(hit.ids,
+                              material_of(frame.world, hit.ids.instance, hit.ids.geometry, hit.ids.primitive),
+                              s, d);
       if (is_black(result)) return result;
       const double side = dot(s.Ng, d) >= 0 ? 1.0 : -1.0;
       left = left - max(s.t, 0.0);
