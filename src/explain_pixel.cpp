@@ -11,13 +11,16 @@
 namespace lambent {
 namespace {
 
-/// How many samples adaptive sampling gives a pixel: that depends on its neighbours, and theirs, so the
-/// picture is taken.
-int adaptive_samples(const Scene& scene, const PreparedFrame& prepared, const Kernel& kernel, int threads,
+/// How many samples a pixel gets. With adaptive samples that depends on its neighbours, and theirs, and with
+/// samples until the noise is low on all of them; so the picture is taken.
+int samples_of_pixel(const Scene& scene, const PreparedFrame& prepared, const Kernel& kernel, int threads,
                      int x, int y) {
+  if (!scene.image.is_adaptive() && !is_progressive(scene)) return prepared.frame.samples;
   Film film(scene.image);
   TileOptions options;
   options.threads = thread_count(threads);
+  if (is_progressive(scene))
+    return render_until(prepared.frame, kernel, scene.path, scene.image, film, options).samples;
   std::vector<int> samples;
   render_adaptively(prepared.frame, kernel, scene.image, film, options, &samples);
   return samples[std::size_t(y) * std::size_t(film.width) + std::size_t(x)];
@@ -37,8 +40,7 @@ DerivationPtr explain(const ScenePtr& scene, int x, int y, const ExplainOptions&
   }
   const Kernel& kernel = choose_kernel(options.isa);
   const auto prepared = prepare(*scene);
-  const int samples = image.is_adaptive() ? adaptive_samples(*scene, *prepared, kernel, options.threads, x, y)
-                                          : prepared->frame.samples;
+  const int samples = samples_of_pixel(*scene, *prepared, kernel, options.threads, x, y);
   return std::make_shared<Derivation>(derive(scene, *prepared, kernel, x, y, samples));
 }
 

@@ -68,10 +68,13 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const double pixels = double(film.width) * film.height;
   const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
   ViewRun view;
-  if (scene->view)
-    view = render_view(prepared->frame, kernel, view_record(*scene, *scene->view),
+  const bool is_view = scene->integrator == Integrator::view;
+  if (is_view)
+    view = render_view(prepared->frame, kernel, view_record(*scene, scene->view),
                        view_samples(scene->image, prepared->frame), film, tile_options);
-  const TileRun run = scene->view ? view.tiles
+  const TileRun run = is_view                  ? view.tiles
+                      : is_progressive(*scene) ? render_until(prepared->frame, kernel, scene->path,
+                                                              scene->image, film, tile_options)
                       : scene->image.is_adaptive()
                           ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
                           : render_tiles(prepared->frame, kernel, film, tile_options);
@@ -81,12 +84,14 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   result.metadata = settings_metadata(*scene);
   if (book) result.metadata.insert(result.metadata.end(), book->metadata().begin(), book->metadata().end());
   if (view.most_rays > 0) result.metadata.emplace_back("lambent:most_rays", std::to_string(view.most_rays));
+  if (is_progressive(*scene)) result.metadata.emplace_back("lambent:samples", std::to_string(run.samples));
   result.write.png_encoded = scene->image.encoding == Encoding::srgb;
   result.cancelled = run.cancelled;
   const RayCounts& rays = run.counts;
   stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow, rays.ambient};
   stats.seconds.develop = clock.lap();
   stats.samples_per_pixel = double(rays.eye) / pixels;
+  stats.noise = run.noise;
   stats.peak_memory_bytes = peak_memory_bytes();
   stats.threads = threads;
   stats.isa = kernel.isa;

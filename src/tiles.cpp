@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -46,7 +47,7 @@ struct Worker {
   std::vector<Pixel> pixels;
   std::vector<double> sums;
   std::vector<float> least_and_greatest;
-  std::vector<double> layer_sums;
+  std::vector<double> layer_sums, squares;
   std::vector<FirstHit> first_hits;
   PixelHits hits;
   LayerBook::Work layer_work;
@@ -55,6 +56,12 @@ struct Worker {
 /// Pixels that are rendered at once where something is noted of each of their samples: so many that the notes
 /// take a few megabytes at most.
 std::size_t pixels_with_hits(int samples) { return std::size_t(std::max(1, (1 << 16) / samples)); }
+
+/// How many samples the noise lets one expect to be needed.
+double samples_expected(const TileRun& run, const PathSettings& settings, int max) {
+  const double factor = run.noise / settings.until;
+  return std::min(double(max), std::ceil(run.samples * factor * factor));
+}
 
 /// How far the pattern's samples lie from the pixel's centre.
 std::vector<double> distances_from_centre(const Frame& frame) {
@@ -126,6 +133,9 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   const Tiles tiles{film, options.tile_size};
   const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
   const std::vector<double> distances = distances_from_centre(frame);
+  const bool noisy = frame.tracing == Tracing::path;
+  // Added up tile by tile, so that the noise does not depend on who was first.
+  std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
     tiles.list_pixels_of(i, worker.pixels);
     const std::size_t at_a_time = film.layers ? pixels_with_hits(frame.samples) : worker.pixels.size();
@@ -140,8 +150,14 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
         task.layer_sums = worker.layer_sums.data();
         task.first_hits = worker.first_hits.data();
       }
+      if (noisy) {
+        worker.squares.assign(count, 0);
+        task.squares = worker.squares.data();
+      }
       kernel.render(frame, task, worker.scratch, worker.counts);
       for (std::size_t p = 0; p < count; ++p) {
+        if (noisy)
+          noise[std::size_t(i)].add(&worker.sums[p * color_channels], worker.squares[p], frame.samples);
         float* to = film.pixel(pixels[p].x, pixels[p].y);
         for (int c = 0; c < color_channels; ++c)
           to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
@@ -154,81 +170,150 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
       }
     }
   });
+  NoiseSum sum;
+  for (const NoiseSum& tile : noise) sum.add(tile);
+  run.noise = sum.noise();
+  run.samples = frame.samples;
   return run;
 }
+
+namespace {
+
+/// Samples taken in several goes, and what they have brought so far.
+class Goes {
+ public:
+  Goes(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
+       const TileOptions& options)
+      : frame_(frame),
+        kernel_(kernel),
+        film_(film),
+        options_(options),
+        columns_(film.layers ? std::size_t(frame.layers.count()) * color_channels : 0),
+        distances_(distances_from_centre(frame)),
+        samples(film, settings) {
+    const int size = options.tile_size;
+    for (int y = 0; y < film.height; y += size)
+      for (int x = 0; x < film.width; x += size)
+        list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
+  }
+
+  /// The pattern's samples from `first` up to `end` of all wanted pixels. The progress goes from `from` to
+  /// `to`.
+  void go(int first, int end, double from, double to, TileRun& run) {
+    const std::int64_t at_a_time = film_.layers ? std::int64_t(pixels_with_hits(end - first))
+                                                : std::int64_t(options_.tile_size) * options_.tile_size;
+    const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
+    Crew(options_, run).share(tasks, from, to, [&](std::int64_t i, Worker& worker) {
+      const std::int64_t begin = i * at_a_time;
+      take(&wanted[std::size_t(begin)],
+           std::size_t(std::min<std::int64_t>(at_a_time, std::int64_t(wanted.size()) - begin)), first, end,
+           worker);
+    });
+  }
+
+ private:
+  const Frame& frame_;
+  const Kernel& kernel_;
+  Film& film_;
+  const TileOptions& options_;
+  std::size_t columns_;  ///< Of layers.
+  std::vector<double> distances_;
+
+ public:
+  AdaptiveFilm samples;
+  std::vector<Pixel> wanted;
+
+ private:
+  void take(const Pixel* pixels, std::size_t count, int first, int end, Worker& worker) {
+    worker.sums.resize(count * color_channels);
+    worker.squares.resize(count);
+    worker.least_and_greatest.resize(count * 2 * color_channels);
+    const auto exchange = [&](const auto& each) {
+      for (std::size_t p = 0; p < count; ++p)
+        for (int c = 0; c < color_channels; ++c) {
+          float* least = &worker.least_and_greatest[p * 2 * color_channels + c];
+          each(samples.at(pixels[p].x, pixels[p].y), c, worker.sums[p * color_channels + c],
+               worker.squares[p], least[0], least[color_channels]);
+        }
+    };
+    using Known = AdaptiveFilm::Pixel;
+    exchange([](const Known& from, int c, double& sum, double& squares, float& least, float& greatest) {
+      sum = from.sum[c], squares = from.squares, least = from.least[c], greatest = from.greatest[c];
+    });
+    PixelTask task{pixels, std::uint32_t(count), first,
+                   end,    worker.sums.data(),   worker.least_and_greatest.data()};
+    if (frame_.tracing == Tracing::path) task.squares = worker.squares.data();
+    const auto taken = std::size_t(end - first);
+    if (film_.layers) {
+      worker.layer_sums.resize(count * columns_);
+      worker.first_hits.resize(count * taken);
+      task.layer_sums = worker.layer_sums.data();
+      task.first_hits = worker.first_hits.data();
+      for (std::size_t p = 0; p < count; ++p)
+        std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns_,
+                    &worker.layer_sums[p * columns_]);
+    }
+    kernel_.render(frame_, task, worker.scratch, worker.counts);
+    if (film_.layers)
+      for (std::size_t p = 0; p < count; ++p) {
+        const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
+        std::copy_n(&worker.layer_sums[p * columns_], columns_, samples.layer_sums(index));
+        for (std::size_t s = 0; s < taken; ++s)
+          samples.hits(index).add(worker.first_hits[p * taken + s], distances_[std::size_t(first) + s]);
+      }
+    exchange([&](Known& to, int c, double sum, double squares, float least, float greatest) {
+      to.sum[c] = sum, to.squares = squares, to.least[c] = least, to.greatest[c] = greatest;
+      to.samples = end;
+    });
+  }
+};
+
+}  // namespace
 
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
                           const TileOptions& options, std::vector<int>* sample_counts) {
   TileRun run;
-  const int size = options.tile_size;
-  AdaptiveFilm samples(film, settings);
-  const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
-  const std::vector<double> distances = distances_from_centre(frame);
-  std::vector<Pixel> wanted;
-  for (int y = 0; y < film.height; y += size)
-    for (int x = 0; x < film.width; x += size)
-      list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
-
+  Goes goes(frame, kernel, settings, film, options);
   const int start = settings.adaptive->start, max = settings.adaptive->max;
   double progress = 0;
-  for (int first = 0, end = start; !wanted.empty() && !run.cancelled;) {
+  for (int first = 0, end = start; !goes.wanted.empty() && !run.cancelled;) {
     // How many goes there will be is not known: each counts as half of what is left.
     const double progress_then = end == max ? 1 : (1 + progress) / 2;
-    const std::int64_t at_a_time =
-        film.layers ? std::int64_t(pixels_with_hits(end - first)) : std::int64_t(size) * size;
-    const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
-    Crew(options, run).share(tasks, progress, progress_then, [&](std::int64_t i, Worker& worker) {
-      const Pixel* pixels = &wanted[i * at_a_time];
-      const auto count =
-          std::size_t(std::min<std::int64_t>(at_a_time, std::int64_t(wanted.size()) - i * at_a_time));
-      worker.sums.resize(count * color_channels);
-      worker.least_and_greatest.resize(count * 2 * color_channels);
-      const auto exchange = [&](const auto& each) {
-        for (std::size_t p = 0; p < count; ++p)
-          for (int c = 0; c < color_channels; ++c) {
-            float* least = &worker.least_and_greatest[p * 2 * color_channels + c];
-            each(samples.at(pixels[p].x, pixels[p].y), c, worker.sums[p * color_channels + c], least[0],
-                 least[color_channels]);
-          }
-      };
-      exchange([](const AdaptiveFilm::Pixel& from, int c, double& sum, float& least, float& greatest) {
-        sum = from.sum[c], least = from.least[c], greatest = from.greatest[c];
-      });
-      PixelTask task{pixels, std::uint32_t(count), first,
-                     end,    worker.sums.data(),   worker.least_and_greatest.data()};
-      const auto taken = std::size_t(end - first);
-      if (film.layers) {
-        worker.layer_sums.resize(count * columns);
-        worker.first_hits.resize(count * taken);
-        task.layer_sums = worker.layer_sums.data();
-        task.first_hits = worker.first_hits.data();
-        for (std::size_t p = 0; p < count; ++p)
-          std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns,
-                      &worker.layer_sums[p * columns]);
-      }
-      kernel.render(frame, task, worker.scratch, worker.counts);
-      if (film.layers)
-        for (std::size_t p = 0; p < count; ++p) {
-          const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
-          std::copy_n(&worker.layer_sums[p * columns], columns, samples.layer_sums(index));
-          for (std::size_t s = 0; s < taken; ++s)
-            samples.hits(index).add(worker.first_hits[p * taken + s], distances[std::size_t(first) + s]);
-        }
-      exchange([&](AdaptiveFilm::Pixel& to, int c, double sum, float least, float greatest) {
-        to.sum[c] = sum, to.least[c] = least, to.greatest[c] = greatest;
-        to.samples = end;
-      });
-    });
+    goes.go(first, end, progress, progress_then, run);
     if (end == max) break;
-    std::erase_if(wanted, [&](const Pixel& pixel) { return !samples.needs_more(pixel.x, pixel.y); });
+    std::erase_if(goes.wanted,
+                  [&](const Pixel& pixel) { return !goes.samples.needs_more(pixel.x, pixel.y); });
     first = end;
     end = std::min(end * 4, max);
     progress = progress_then;
   }
-  samples.develop(film);
+  goes.samples.develop(film);
   if (sample_counts)
     for (int y = 0; y < film.height; ++y)
-      for (int x = 0; x < film.width; ++x) sample_counts->push_back(samples.at(x, y).samples);
+      for (int x = 0; x < film.width; ++x) sample_counts->push_back(goes.samples.at(x, y).samples);
+  return run;
+}
+
+TileRun render_until(const Frame& frame, const Kernel& kernel, const PathSettings& settings,
+                     const ImageSettings& image, Film& film, const TileOptions& options) {
+  TileRun run;
+  Goes goes(frame, kernel, image, film, options);
+  const int max = frame.samples;
+  int first = 0, end = std::min(image.samples, max);
+  for (double progress = 0; !run.cancelled;) {
+    // Noise falls with the square root of the samples, so this is about how much is done by then.
+    const double then =
+        run.noise > 0 ? std::min(1.0, double(end) / samples_expected(run, settings, max)) : 0.5;
+    goes.go(first, end, progress, std::max(progress, then), run);
+    progress = std::max(progress, then);
+    run.samples = end;
+    run.noise = goes.samples.noise();
+    if (run.noise <= settings.until || end == max) break;
+    first = end;
+    // No more than three times as many again: the estimate of the noise is rough where samples are few.
+    end = int(std::clamp(samples_expected(run, settings, max), end + 1.0, std::min(4.0 * end, double(max))));
+  }
+  goes.samples.develop(film);
   return run;
 }
 

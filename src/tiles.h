@@ -10,6 +10,8 @@ namespace lambent {
 struct TileRun {
   RayCounts counts;
   bool cancelled = false;
+  int samples = 0;   ///< Of each pixel, where all have the same.
+  double noise = 0;  ///< Of paths: NoiseSum's. Otherwise 0.
 };
 
 struct TileOptions {
@@ -29,6 +31,11 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
 ///   samples  if not null: how many each pixel got, row by row
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
                           const TileOptions& options, std::vector<int>* samples = nullptr);
+
+/// The same with samples until the picture's noise is no more than `settings.until`: `start` samples of every
+/// pixel, then more, as many as the noise lets one expect.
+TileRun render_until(const Frame& frame, const Kernel& kernel, const PathSettings& settings,
+                     const ImageSettings& image, Film& film, const TileOptions& options);
 
 /// Renders a view in place of the colours: `samples` samples of every pixel, the first of the frame's.
 struct ViewRun {

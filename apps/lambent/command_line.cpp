@@ -247,6 +247,15 @@ void add_scene_options(CLI::App* command, Shorthands& shorthands) {
           "--model", shorthand("illumination.model", [](const std::string& text) { return text; }),
           "Illumination model ('lambent list models')")
       ->type_name("NAME");
+  command
+      ->add_option("--integrator", shorthands.load.integrator,
+                   "Who makes the picture: whitted, path, ...\n('lambent list integrators')")
+      ->type_name("NAME");
+  command
+      ->add_option_function<std::string>(
+          "--until", shorthand("integrator.path.until", [](const std::string& text) { return text; }),
+          "Path tracing until the noise is that share of\nthe picture: 0.01 is 1 %")
+      ->type_name("SHARE");
   add_set(command, shorthands);
   add_model_options(command, shorthands.load);
   add_reading_options(command, shorthands.load);

@@ -53,6 +53,7 @@ void add(Stats& sum, const Stats& one, int frames_before) {
   sum.seconds.render += seconds.render;
   sum.seconds.develop += seconds.develop;
   sum.seconds.write = seconds.write;
+  sum.noise = std::max(sum.noise, one.noise);
   sum.samples_per_pixel = (samples + one.samples_per_pixel) / (frames_before + 1);
 }
 
@@ -81,6 +82,7 @@ std::string stats_as_json(const Stats& stats) {
                    {"textures", stats.bytes.textures}, {"film", stats.bytes.film}};
   json["peak_memory_bytes"] = stats.peak_memory_bytes;
   json["samples_per_pixel"] = stats.samples_per_pixel;
+  json["noise"] = stats.noise;
   json["tree_quality"] = stats.tree_quality;
   json["threads"] = stats.threads;
   json["isa"] = stats.isa;

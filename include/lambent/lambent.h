@@ -34,6 +34,9 @@ struct LoadOptions {
   /// {"lights.key.point.intensity", "4"}. Steps of a path are keys; in a list, an element's name or its index
   /// from 0. The value is YAML.
   std::vector<std::pair<std::string, std::string>> set = {};
+  /// Who makes the picture, in place of the scene's: "whitted", "path", ...; with the scene's settings for
+  /// it, where it has some. Empty: the scene's.
+  std::string integrator = {};
   Limits limits = {};  ///< What reading may cost. Files may be named in the input's own folder and below.
   std::optional<double> time = {};  ///< Seconds: the pose of animated models. Unset: as their files stand.
   /// In place of the background: a colour as scene files say it ("0.2", "[0.1, 0.2, 0.3]", "#203040"), or the
@@ -163,7 +166,10 @@ struct Stats {
   } bytes;
   std::uint64_t peak_memory_bytes = 0;  ///< Of the whole process so far.
   double samples_per_pixel = 0;         ///< On average.
-  std::string tree_quality;             ///< "quick" or "thorough": whichever brings the picture sooner.
+  /// Of path tracing: about how far pixels are from what endlessly many samples would give: the standard
+  /// deviation, root mean square over the pixels, as a share of the picture's mean luminance. Otherwise 0.
+  double noise = 0;
+  std::string tree_quality;  ///< "quick" or "thorough": whichever brings the picture sooner.
   int threads = 0;
   std::string isa;
 };

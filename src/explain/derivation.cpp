@@ -22,7 +22,9 @@ class Notes {
             [](void* self, const SeenHit& seen) { static_cast<Notes*>(self)->hit(seen); },
             [](void* self, const SeenLight& seen) { static_cast<Notes*>(self)->light(seen); },
             [](void* self, const SeenTerm& seen) { static_cast<Notes*>(self)->term(seen); },
-            [](void* self, const SeenColor& seen) { static_cast<Notes*>(self)->color(seen); }};
+            [](void* self, const SeenColor& seen) { static_cast<Notes*>(self)->color(seen); },
+            [](void* self, const SeenFind& seen) { static_cast<Notes*>(self)->find(seen); },
+            [](void* self, const SeenSearch& seen) { static_cast<Notes*>(self)->search(seen); }};
   }
   RayListener listener() {
     return {this,
@@ -94,8 +96,18 @@ class Notes {
   }
   void color(const SeenColor& seen) {
     to_.rays[seen.ray].color = seen.color;
-    DerivedSample& sample = to_.samples[sample_of_[seen.ray]];
-    sample.order.push_back(seen.ray);
+    add(seen.ray, seen.color);
+  }
+  void find(const SeenFind& seen) {
+    to_.rays[seen.ray].find = seen;
+    add(seen.ray, seen.brings);
+  }
+  void search(const SeenSearch& seen) {
+    to_.rays[seen.ray].search = seen;
+    if (seen.open) add(seen.ray, seen.brings);
+  }
+  void add(std::uint32_t ray, const Rgb& color) {
+    to_.samples[sample_of_[ray]].order.push_back({ray, color});
   }
 
   /// What the shadow ray meets, up to the first thing that blocks it: asked for as `transmittance` in the
@@ -185,9 +197,9 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
                 scratch, counts);
 
   for (DerivedSample& sample : result.samples) {
-    for (const std::uint32_t number : sample.order)
+    for (const DerivedSummand& summand : sample.order)
       for (int c = 0; c < color_channels; ++c)
-        sample.color[c] += result.rays[number].seen.weight[c] * result.rays[number].color[c];
+        sample.color[c] += result.rays[summand.ray].seen.weight[c] * summand.color[c];
     result.sum = result.sum + sample.color;
   }
   // Developed as a picture of this pixel alone.

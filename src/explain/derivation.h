@@ -2,6 +2,7 @@
 // What the renderer told about one pixel, in order.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,14 +50,23 @@ struct DerivedRay {
   std::vector<DerivedLight> lights;  ///< One for each point of the scene's lights.
   Rgb color{};                       ///< What it adds, before its weight.
   std::vector<std::uint32_t> children;
+  // Of paths:
+  std::optional<SeenFind> find;
+  std::optional<SeenSearch> search;
 };
 
-/// A sample: its first ray, and all of them in the order in which their colours are added.
+/// What is added to a sample: the ray's weight times a colour.
+struct DerivedSummand {
+  std::uint32_t ray;
+  Rgb color;
+};
+
+/// A sample: its first ray, and what is added, in order.
 struct DerivedSample {
   double x = 0, y = 0;  ///< In pixels from the picture's top left corner.
   std::uint32_t eye_ray = 0;
-  std::vector<std::uint32_t> order;
-  Rgb color{};  ///< The sum of weight * colour in that order.
+  std::vector<DerivedSummand> order;
+  Rgb color{};  ///< Their sum.
 };
 
 struct Derivation {

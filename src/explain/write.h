@@ -7,6 +7,9 @@
 
 namespace lambent {
 
+/// What shines, by film/layers.h' number: the name of a light, "surfaces that shine", "the background".
+std::string source_name(const Derivation& derivation, int source);
+
 /// The derivation of one sample, and of the pixel by its samples.
 std::string page_of(const Derivation& derivation, int sample, Page& page);
 

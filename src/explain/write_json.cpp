@@ -65,7 +65,8 @@ class Telling {
     result["position"] = {sample.x, sample.y};
     result["weight"] = 1.0 / double(d_.samples.size());
     result["color"] = json(sample.color);
-    result["order"] = sample.order;
+    result["order"] = Json::array();
+    for (const DerivedSummand& summand : sample.order) result["order"].push_back(summand.ray);
     result["ray"] = ray(sample.eye_ray);
     return result;
   }
@@ -83,23 +84,65 @@ class Telling {
     result["factor"] = json(ray.seen.factor);
     result["weight"] = json(ray.seen.weight);
     result["color"] = json(ray.color);
-    result["hit"] = ray.hits ? hit(ray) : Json(nullptr);
+    const bool is_path = scene_.integrator == Integrator::path;
+    result["hit"] = !ray.hits ? Json(nullptr) : is_path ? surface(ray) : hit(ray);
+    if (is_path) {
+      result["density"] = ray.seen.density;
+      result["survival"] = ray.seen.survival;
+      result["find"] = ray.find ? find(*ray.find) : Json(nullptr);
+      result["search"] = ray.search ? search(*ray.search) : Json(nullptr);
+    }
     result["rays"] = Json::array();
     for (const std::uint32_t child : ray.children) result["rays"].push_back(this->ray(child));
     return result;
   }
 
+  Json find(const SeenFind& seen) const {
+    Json result;
+    result["source"] = source_name(d_, seen.source);
+    result["radiance"] = json(seen.radiance);
+    result["searched_density"] = seen.searched;
+    result["mis_weight"] = seen.weight;
+    result["brings"] = json(seen.brings);
+    return result;
+  }
+  Json search(const SeenSearch& seen) const {
+    Json result;
+    result["source"] = source_name(d_, seen.source);
+    result["L"] = json(seen.L);
+    result["r"] = finite(seen.r);
+    result["arriving"] = json(seen.arriving);
+    result["density"] = seen.density;
+    result["scattered"] = json(seen.scattered);
+    result["followed_density"] = seen.followed;
+    result["mis_weight"] = seen.weight;
+    result["state"] = seen.open ? "visible" : seen.asked ? "blocked" : "dark";
+    result["share"] = seen.share;
+    result["brings"] = json(seen.brings);
+    return result;
+  }
+
   Json hit(const DerivedRay& ray) const {
-    const Material& material = d_.material_of(ray);
+    Json result = surface(ray);
     const ModelInfo& model = info(d_.model_of(ray));
+    result["model"] = model.name;
+    result["equation"] = model.equation;
+    result["Ia_over_R"] = json(ray.hit.Ia);
+    result["ambient"] = formula(ambient_formula(d_, ray), ray.ambient);
+    result["lights"] = Json::array();
+    for (const DerivedLight& light : ray.lights) result["lights"].push_back(this->light(ray, light));
+    return result;
+  }
+
+  /// What the ray has met.
+  Json surface(const DerivedRay& ray) const {
+    const Material& material = d_.material_of(ray);
     Json result;
     result["object"] = objects_[ray.object];
     result["object_place"] = json(d_.place_of_object(ray.object));
     result["primitive"] = ray.primitive;
     result["material"] = materials_[ray.hit.material];
     result["material_place"] = json(material.place);
-    result["model"] = model.name;
-    result["equation"] = model.equation;
     result["t"] = ray.hit.t;
     result["R"] = ray.hit.R;
     result["P"] = json(ray.hit.P);
@@ -111,11 +154,7 @@ class Telling {
     result["Kd"] = json(material.diffuse);
     result["Ks"] = json(material.specular);
     result["n"] = material.shininess;
-    result["Ia_over_R"] = json(ray.hit.Ia);
-    result["ambient"] = formula(ambient_formula(d_, ray), ray.ambient);
-    result["emission"] = json(ray.emission);
-    result["lights"] = Json::array();
-    for (const DerivedLight& light : ray.lights) result["lights"].push_back(this->light(ray, light));
+    result["emission"] = json(scene_.integrator == Integrator::path ? material.emission : ray.emission);
     return result;
   }
 

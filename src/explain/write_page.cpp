@@ -34,7 +34,8 @@ class Telling {
     page_.line(fmt::format("Sample {} of {}, at {}, {}{}.", number, d_.samples.size(), short_number(sample.x),
                            short_number(sample.y),
                            number == d_.central ? ", the nearest to the pixel's centre" : ""));
-    tell_ray(sample.eye_ray);
+    if (scene_.integrator == Integrator::path) tell_path(sample.eye_ray);
+    else tell_ray(sample.eye_ray);
     tell_sums(sample);
     tell_pixel();
   }
@@ -64,11 +65,120 @@ class Telling {
     }
   }
 
-  void tell_hit(const DerivedRay& ray) {
-    const Material& material = d_.material_of(ray);
+  // ---- a path, ray by ray
+
+  void tell_path(std::uint32_t number) {
+    for (;;) {
+      const DerivedRay& ray = d_.rays[number];
+      page_.heading(fmt::format("Ray {}{}", number, ray.seen.parent == no_ray ? ", from the eye" : ""));
+      page_.line(fmt::format("starts at {}, goes along {}", text_of(ray.seen.o), text_of(ray.seen.d)));
+      if (ray.seen.parent != no_ray) tell_choice(ray);
+      if (ray.hits) tell_surface(ray);
+      else page_.line("meets nothing: the background");
+      if (ray.find) tell_find(ray, *ray.find);
+      if (ray.search) tell_search(*ray.search);
+      if (ray.children.empty()) return;
+      number = ray.children[0];
+    }
+  }
+
+  void tell_choice(const DerivedRay& ray) {
+    const DerivedRay& parent = d_.rays[ray.seen.parent];
+    if (ray.seen.factor == grey(1.0) && ray.seen.density == parent.seen.density &&
+        ray.seen.weight == parent.seen.weight)
+      return page_.line("goes on through what is not wholly there, as if there were nothing");
+    if (ray.seen.density > 0)
+      page_.equation("p", {written(grey(ray.seen.density), page_.notation())},
+                     "density of this direction, as the material chooses");
+    equation_of_colors(
+        "f |N.L| / p", {ray.seen.factor},
+        ray.seen.density > 0 ? "" : "the only direction of its kind; over the chance of choosing it");
+    if (ray.seen.survival < 1)
+      page_.equation("q", {written(grey(ray.seen.survival), page_.notation())},
+                     "the chance with which the path went on; it counts 1/q more");
+    equation_of_colors("throughput", {ray.seen.weight}, "what it brings counts so much");
+  }
+
+  void tell_surface(const DerivedRay& ray) {
+    tell_where(ray);
+    const Material& material = d_.given_material(ray.hit.material);
+    page_.line(fmt::format("material {}{}: {}", materials_[ray.hit.material], place_of(material.place),
+                           scattering_of(d_.material_of(ray))));
+    equation("P", text_of(ray.hit.P));
+    equation("N", text_of(ray.hit.N));
+    equation("V", text_of(ray.hit.V));
+  }
+  std::string scattering_of(const Material& material) const {
+    if (const auto& m = material.metallic_roughness)
+      return fmt::format("base color {}, metallic {}, roughness {}", short_color(m->base_color),
+                         short_number(m->metallic), short_number(m->roughness));
+    return fmt::format("Kd {}, Ks {}, n {}", short_color(material.diffuse), short_color(material.specular),
+                       short_number(material.shininess));
+  }
+
+  void tell_find(const DerivedRay& ray, const SeenFind& seen) {
+    page_.line("");
+    page_.line(fmt::format("It has come upon light: {}", source_name(d_, seen.source)));
+    page_.begin();
+    equation_of_colors("Le", {seen.radiance}, "");
+    if (ray.seen.density > 0)
+      tell_weight("p", ray.seen.density, "s", seen.searched, seen.weight,
+                  "s: the density with which a search finds it");
+    equation_of_colors("brings", {seen.brings}, "");
+    page_.end();
+  }
+
+  void tell_search(const SeenSearch& seen) {
+    page_.line("");
+    page_.line(fmt::format("Light is looked for: {}", source_name(d_, seen.source)));
+    page_.begin();
+    std::string where = "L = " + text_of(seen.L);
+    if (seen.r < 1e300) where += fmt::format(", r = {}", short_number(seen.r));
+    page_.line(where);
+    equation_of_colors("arrives", {seen.arriving},
+                       seen.density > 0 ? "radiance over s" : "pi Il / r^2 over the chance of its choice");
+    equation_of_colors("f |N.L|", {seen.scattered}, "");
+    if (seen.density > 0)
+      tell_weight("s", seen.density, "p", seen.followed, seen.weight,
+                  "p: the density with which the path goes that way");
+    if (seen.open && seen.share < 1)
+      page_.equation("share", {written(grey(seen.share), page_.notation())},
+                     "what surfaces leave of it that are not wholly there");
+    if (!seen.asked) page_.line("nothing of it is scattered to where the ray came from");
+    else if (!seen.open) page_.line("blocked");
+    else equation_of_colors("brings", {seen.brings}, "");
+    page_.end();
+  }
+
+  /// a^2 / (a^2 + b^2), or 1 where the other way was closed.
+  void tell_weight(const std::string& a, double found, const std::string& b, double other, double weight,
+                   const std::string& remark) {
+    page_.equation(a, {written(grey(found), page_.notation())}, "");
+    page_.equation(b, {written(grey(other), page_.notation())},
+                   remark.substr(0, 2) == b + ":" ? remark.substr(3) : "");
+    page_.equation("w", {written(grey(weight), page_.notation())},
+                   weight == 1 ? "no other way finds it" : a + "^2 / (" + a + "^2 + " + b + "^2)");
+  }
+
+  void equation_of_colors(const std::string& name, const std::vector<Rgb>& colors,
+                          const std::string& remark) {
+    std::vector<std::string> sides;
+    for (const Rgb& color : colors) sides.push_back(written(color, page_.notation()));
+    page_.equation(name, sides, remark);
+  }
+
+  // ---- a tree of rays
+
+  /// What a ray meets, and where.
+  void tell_where(const DerivedRay& ray) {
     page_.line(fmt::format("meets {}{}, primitive {}, after {}{}", objects_[ray.object],
                            place_of(d_.place_of_object(ray.object)), ray.primitive, short_number(ray.hit.t),
                            ray.hit.outside ? "" : ", from inside"));
+  }
+
+  void tell_hit(const DerivedRay& ray) {
+    tell_where(ray);
+    const Material& material = d_.material_of(ray);
     page_.line(fmt::format("material {}{}: Ka {}, Kd {}, Ks {}, n {}", materials_[ray.hit.material],
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
@@ -182,16 +292,16 @@ class Telling {
   void tell_sums(const DerivedSample& sample) {
     page_.heading("The sample's colour");
     Rgb sum{};
-    for (const std::uint32_t number : sample.order) {
-      const DerivedRay& ray = d_.rays[number];
+    for (const DerivedSummand& summand : sample.order) {
+      const DerivedRay& ray = d_.rays[summand.ray];
       Rgb brings;
-      for (int c = 0; c < color_channels; ++c) brings[c] = ray.seen.weight[c] * ray.color[c];
+      for (int c = 0; c < color_channels; ++c) brings[c] = ray.seen.weight[c] * summand.color[c];
       sum = sum + brings;
       std::vector<std::string> sides{written(brings, page_.notation())};
       if (!(ray.seen.weight == grey(1.0)))
         sides.insert(sides.begin(), written(ray.seen.weight, page_.notation()) + times() +
-                                        written(ray.color, page_.notation()));
-      page_.equation(fmt::format("ray {}", number), sides, "");
+                                        written(summand.color, page_.notation()));
+      page_.equation(fmt::format("ray {}", summand.ray), sides, "");
     }
     page_.equation("sum", {written(sum, page_.notation())}, "");
   }
@@ -235,6 +345,14 @@ class Telling {
 };
 
 }  // namespace
+
+std::string source_name(const Derivation& derivation, int source) {
+  const int lights = int(derivation.scene->lights.size());
+  if (source == surfaces_source(lights)) return "surfaces that shine";
+  if (source == background_source(lights)) return "the background";
+  const Light& light = derivation.scene->lights[std::size_t(source)];
+  return light.name + place_of(light.place);
+}
 
 std::string page_of(const Derivation& derivation, int sample, Page& page) {
   Telling(derivation, page).tell(sample);

@@ -47,6 +47,26 @@ bool AdaptiveFilm::needs_more(int x, int y) const {
   return height_of_edge(x, y) > settings_.error * std::sqrt(n * std::sqrt(n));
 }
 
+void NoiseSum::add(const double* sum, double squares, int samples) {
+  const double mean = luminance_of(Rgb{sum[0], sum[1], sum[2]}) / samples;
+  const double spread = std::max(squares / samples - mean * mean, 0.0);
+  variance += samples > 1 ? spread / (samples - 1) : std::numeric_limits<double>::infinity();
+  luminance += mean;
+  ++pixels;
+}
+void NoiseSum::add(const NoiseSum& more) {
+  variance += more.variance, luminance += more.luminance, pixels += more.pixels;
+}
+double NoiseSum::noise() const {
+  return luminance > 0 ? std::sqrt(variance * double(pixels)) / luminance : 0;
+}
+
+double AdaptiveFilm::noise() const {
+  NoiseSum sum;
+  for (const Pixel& pixel : pixels_) sum.add(pixel.sum, pixel.squares, pixel.samples);
+  return sum.noise();
+}
+
 void AdaptiveFilm::develop(Film& film) const {
   LayerBook::Work work;
   for (std::size_t p = 0; p < pixels_.size(); ++p) {

@@ -5,16 +5,30 @@
 
 namespace lambent {
 
-/// What the samples of each pixel have brought so far, for samples that are taken where the picture needs
-/// them.
+/// Noise of a picture, gathered pixel by pixel.
+struct NoiseSum {
+  double variance = 0, luminance = 0;
+  std::uint64_t pixels = 0;
+  /// A pixel's samples: the sum of their colours, and that of the squares of their luminance.
+  void add(const double* sum, double squares, int samples);
+  void add(const NoiseSum& more);
+  /// The standard deviation of a pixel from what endlessly many samples would give, root mean square over the
+  /// pixels, as a share of the mean luminance. As if samples were independent; well-spread ones do better, so
+  /// this is an upper estimate. 0 of a black picture; infinite where a pixel has one sample.
+  double noise() const;
+};
+
+/// What the samples of each pixel have brought so far, for samples that are taken in several goes: where the
+/// picture needs them, or until its noise is low.
 class AdaptiveFilm {
  public:
   AdaptiveFilm(const Film& film, const ImageSettings& settings);
 
-  /// Of a pixel: the sum of its samples' colours; the least of each channel, then the greatest; how many
-  /// samples.
+  /// Of a pixel: the sum of its samples' colours; where noise is measured, that of the squares of their
+  /// luminance; the least of each channel, then the greatest; how many samples.
   struct Pixel {
     double sum[color_channels] = {};
+    double squares = 0;
     float least[color_channels], greatest[color_channels];
     int samples = 0;
   };
@@ -29,6 +43,9 @@ class AdaptiveFilm {
   /// height D is known to about D / n^(3/4) by n well-spread samples, and D is looked for in the pixel
   /// and its neighbours, since an edge may fall between its own samples.
   bool needs_more(int x, int y) const;
+
+  /// As noise_of.
+  double noise() const;
 
   /// The means.
   void develop(Film& film) const;

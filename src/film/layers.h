@@ -14,6 +14,14 @@ namespace lambent {
 
 enum class Way : std::uint8_t { direct, reflection, refraction };
 
+/// Paths tell apart what shines (the scene's lights, then the surfaces that shine, then the background) and
+/// whether its light came to the surface that the eye sees directly or by way of others. In place of a
+/// light's two terms they have these two layers, all by the direct way; `emission` and `background` are what
+/// the eye sees shine.
+constexpr int surfaces_source(int lights) { return lights; }
+constexpr int background_source(int lights) { return lights + 1; }
+constexpr int path_source_count(int lights) { return lights + 2; }
+
 /// How layers are numbered.
 struct LayerPlan {
   enum : int { ambient, emission, background, first_light };
@@ -34,6 +42,8 @@ struct LayerPlan {
   }
   static int diffuse(int light) { return first_light + 2 * light; }
   static int specular(int light) { return first_light + 2 * light + 1; }
+  static int direct(int source) { return diffuse(source); }
+  static int indirect(int source) { return specular(source); }
 };
 
 /// What an eye ray met first.

@@ -86,6 +86,9 @@ struct SeenRay {
   Vec3<double> o, d;
   Rgb factor;  ///< What the surface gives it: reflect or transmit. White for rays from the eye.
   Rgb weight;  ///< What its colour counts in its sample: the factors on the way.
+  // Of paths, whose factor is f |N.L| over the density of the choice:
+  double density = 0;   ///< Per solid angle; 0 where there was but one direction.
+  double survival = 1;  ///< The chance with which the path went on; the weight is the larger for it.
 };
 inline constexpr std::uint32_t no_ray = ~std::uint32_t{0};
 /// The material as the equation took it.
@@ -129,6 +132,31 @@ struct SeenColor {
   std::uint32_t ray;
   Rgb color;  ///< Of the ray, before its weight; of a ray that met nothing the background.
 };
+/// Of paths: light that one has come upon.
+struct SeenFind {
+  std::uint32_t ray;
+  int source;  ///< film/layers.h
+  Rgb radiance;
+  double searched;  ///< The density with which light that is looked for would have found it.
+  double weight;    ///< By that, and by the ray's own density.
+  Rgb brings;       ///< To the sample, times the ray's weight.
+};
+/// Of paths: light that was looked for.
+struct SeenSearch {
+  std::uint32_t ray;
+  int source;
+  Vec3<double> L;
+  double r;
+  Rgb arriving;      ///< Radiance over density; of a light without extent pi Il / r^2 over the chance of its
+                     ///< choice.
+  double density;    ///< Per solid angle, the choice of the light included; 0: a light without extent.
+  Rgb scattered;     ///< f |N.L|
+  double followed;   ///< The density with which the path would have gone on that way.
+  double weight;     ///< By these two.
+  bool asked, open;  ///< Whether a shadow ray was thrown, and whether it got through.
+  double share;      ///< What surfaces leave that are not wholly there.
+  Rgb brings;        ///< To the sample, times the ray's weight.
+};
 struct Witness {
   void* self;
   void (*ray)(void* self, const SeenRay&);
@@ -136,6 +164,8 @@ struct Witness {
   void (*light)(void* self, const SeenLight&);
   void (*term)(void* self, const SeenTerm&);
   void (*color)(void* self, const SeenColor&);
+  void (*find)(void* self, const SeenFind&);
+  void (*search)(void* self, const SeenSearch&);
 };
 
 /// A point of a light, as the lecture's sum over lights sees it: lights without extent have one.
@@ -149,8 +179,8 @@ struct LightPoint {
 struct EmitterTable;
 
 /// How rays are followed: which kernel renders the frame.
-enum class Tracing { whitted };
-inline constexpr int tracing_count = 1;
+enum class Tracing { whitted, path };
+inline constexpr int tracing_count = 2;
 
 struct Frame {
   Tracing tracing = Tracing::whitted;
@@ -183,6 +213,7 @@ struct Frame {
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
   double minimum_distance;
   WhittedSettings whitted;
+  PathSettings path;
   Attenuation path_attenuation{0, 0, 1};   ///< Of lights without extent, for paths.
   const EmitterTable* emitters = nullptr;  ///< Likewise for paths: emitters.h.
 };
@@ -203,6 +234,7 @@ struct PixelTask {
   double* layer_sums =
       nullptr;  ///< Null, or frame.layers.count() times color_channels for each pixel, likewise.
   FirstHit* first_hits = nullptr;  ///< Null, or for each pixel one for each of the samples asked for.
+  double* squares = nullptr;       ///< Null, or for each pixel the sum of the squares of samples' luminance.
 };
 
 /// Columns of equal length that grow together; a struct of arrays says which they are by `columns(f)`. They
@@ -224,7 +256,10 @@ struct RayQueue {
   Column<Way> way;                        ///< How light came that goes along it. Set where somebody looks,
   Column<std::uint32_t> number;           ///< as is the ray's number.
   Column<double> width, spread;           ///< With frame.cones: how wide it is, and how much wider it gets.
-  Column<float> t;                        ///< Found: distance,
+  // Of paths: where light was last looked for, and with which density the ray leaves that place; 0: no light
+  // sample could have found what it meets.
+  Column<double> from_x, from_y, from_z, from_nx, from_ny, from_nz, density;
+  Column<float> t;                                     ///< Found: distance,
   Column<std::int32_t> instance, geometry, primitive;  ///< and which primitive; geometry -1: none.
   Column<std::uint32_t> material;                      ///< Of that primitive,
   Column<std::uint8_t> group;                          ///< and what it goes together with.
@@ -233,6 +268,7 @@ struct RayQueue {
   template <class F> void columns(F f) {
     f(ox), f(oy), f(oz), f(dx), f(dy), f(dz), f(R), f(qx), f(qy), f(qz);
     for (auto& w : weight) f(w);
+    f(from_x), f(from_y), f(from_z), f(from_nx), f(from_ny), f(from_nz), f(density);
     f(sample), f(way), f(number), f(width), f(spread), f(t), f(instance), f(geometry), f(primitive),
         f(material), f(group), f(order);
   }

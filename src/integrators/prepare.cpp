@@ -143,7 +143,9 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.width = scene.image.width;
   frame.height = scene.image.height;
   prepared->pattern =
-      corners ? std::vector<Vec2<double>>{{0, 0}}
+      corners                 ? std::vector<Vec2<double>>{{0, 0}}
+      : is_progressive(scene) ? progressive_pattern(std::max(scene.path.max_samples, scene.image.samples),
+                                                    scene.image.samples, scene.image.filter)
       : scene.image.adaptive
           ? progressive_pattern(scene.image.adaptive->max, scene.image.adaptive->start, scene.image.filter)
           : sample_pattern(scene.image.samples, scene.image.filter);
@@ -192,11 +194,16 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   }
   frame.cones = !scene.textures.empty();
   // A pixel's samples share its width.
-  const double share = 1 / std::sqrt(double(is_adaptive ? scene.image.adaptive->start : frame.samples));
+  const int sharing = is_adaptive             ? scene.image.adaptive->start
+                      : is_progressive(scene) ? scene.image.samples
+                                              : frame.samples;
+  const double share = 1 / std::sqrt(double(sharing));
   frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
   frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
   frame.layers.lights = frame.light_count;
-  if (scene.whitted.max_depth > 1)
+  if (scene.integrator == Integrator::path) {
+    frame.layers.lights = path_source_count(frame.light_count);
+  } else if (scene.whitted.max_depth > 1)
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
@@ -211,6 +218,11 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.minimum_distance = scene.illumination.minimum_distance;
   frame.background = scene.background;
   frame.whitted = scene.whitted;
+  if (scene.integrator == Integrator::path) {
+    frame.tracing = Tracing::path;
+    frame.path = scene.path;
+    if (scene.illumination.attenuation) frame.path_attenuation = *scene.illumination.attenuation;
+  }
   return prepared;
 }
 

@@ -289,6 +289,9 @@ struct Wavefront {
     C ka, kd, ks, emission, reflect, transmit;
     F n, ior;
     double curvature[lanes], lobe[lanes];
+    // Of paths, which take a material as it is given:
+    MetallicRoughnessOf<F, C> rough;
+    F opacity;
   };
 
   /// A packet of hits: all that is known of them.
@@ -366,6 +369,7 @@ struct Wavefront {
     const RayQueue& rays = scratch.rays;
     const Lanes& at = block.at[packet];
     Hits& hits = block.hits[packet];
+    const bool as_given = frame.tracing == Tracing::path;
     Paint paints[lanes];
     for (int k = 0; k < lanes; ++k) {
       if (k >= at.count) {
@@ -376,9 +380,11 @@ struct Wavefront {
       const double side = lane_bits(hits.outside) >> k & 1 ? 1.0 : -1.0;
       const Vec3<double> d = -lane_vector(hits.V, k);
       const double width = frame.cones ? rays.width[ray] + rays.spread[ray] * lane(hits.t, k) : 0;
-      paints[k] = paint(frame, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]},
-                        hits.material[k], lane_vector(hits.P, k), side * lane_vector(hits.N, k),
-                        side * lane_vector(hits.G, k), d, width);
+      const HitIds<std::int32_t> ids{rays.instance[ray], rays.geometry[ray], rays.primitive[ray]};
+      const Vec3<double> P = lane_vector(hits.P, k), N = side * lane_vector(hits.N, k),
+                         G = side * lane_vector(hits.G, k);
+      paints[k] = as_given ? paint_as_given(frame, ids, hits.material[k], P, N, G, d, width)
+                           : paint(frame, ids, hits.material[k], P, N, G, d, width);
       paints[k].N = side * paints[k].N;
     }
     const auto color = [&](Rgb Paint::*member) {
@@ -388,6 +394,24 @@ struct Wavefront {
       return result;
     };
     Painted& painted = block.painted[packet];
+    if (as_given) {
+      const auto number = [&](double MetallicRoughnessOf<double, Rgb>::*member) {
+        return gather<F>([&](int k) { return paints[k].rough.*member; });
+      };
+      const auto rough_color = [&](Rgb MetallicRoughnessOf<double, Rgb>::*member) {
+        C result;
+        for (int c = 0; c < color_channels; ++c)
+          result[c] = gather<F>([&](int k) { return (paints[k].rough.*member)[c]; });
+        return result;
+      };
+      using Rough = MetallicRoughnessOf<double, Rgb>;
+      painted.rough = {rough_color(&Rough::base_color),     number(&Rough::metallic),
+                       number(&Rough::roughness),           number(&Rough::specular),
+                       rough_color(&Rough::specular_color), number(&Rough::ior),
+                       number(&Rough::transmission),        number(&Rough::clearcoat),
+                       number(&Rough::clearcoat_roughness)};
+      painted.opacity = gather<F>([&](int k) { return paints[k].opacity; });
+    }
     painted.ka = color(&Paint::ka), painted.kd = color(&Paint::kd), painted.ks = color(&Paint::ks);
     painted.emission = color(&Paint::emission);
     painted.reflect = color(&Paint::reflect), painted.transmit = color(&Paint::transmit);
@@ -669,6 +693,11 @@ struct Wavefront {
       for (int c = 0; c < color_channels; ++c)
         task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
       if (task.layer_sums) add_layers_to_pixel(pixel, i);
+      if (task.squares) {
+        const double luminance = luminance_of(
+            Rgb{scratch.samples.color[0][i], scratch.samples.color[1][i], scratch.samples.color[2][i]});
+        task.squares[pixel] += luminance * luminance;
+      }
       if (task.least_and_greatest) {
         float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
         float* greatest = least + color_channels;

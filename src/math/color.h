@@ -65,6 +65,10 @@ template <class F, int C = color_channels> constexpr Color<F, C> grey(const F& v
   for (int i = 0; i < C; ++i) result[i] = value;
   return result;
 }
+/// The luminance of linear sRGB (ITU-R BT.709): white has 1.
+template <class F> constexpr F luminance_of(const Color<F, 3>& a) {
+  return F(0.2126) * a[0] + F(0.7152) * a[1] + F(0.0722) * a[2];
+}
 /// Whether every channel is zero; for packets lane by lane.
 template <class F, int C> constexpr auto is_black(const Color<F, C>& a) {
   auto black = a[0] == F(0);

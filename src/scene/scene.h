@@ -174,6 +174,44 @@ inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
      "counts nothing, as the SPD benchmark counts rays."},
 };
 
+/// Path tracing: the rendering equation. `image.samples` paths for each pixel.
+struct PathSettings {
+  int max_depth = 64;
+  int roulette_depth = 5;
+  double clamp = 0;
+  double until = 0;
+  int max_samples = 65536;
+};
+template <>
+inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
+    {"max_depth",
+     &PathSettings::max_depth,
+     {1, 1024},
+     "",
+     "How many rays a path may have, one after the other; the ray from the eye is 1. With 1 surfaces are lit "
+     "by "
+     "lights alone, not by each other."},
+    {"roulette_depth",
+     &PathSettings::roulette_depth,
+     {1, 1024},
+     "",
+     "From this ray on a path may end by chance, the sooner, the less it still counts (Russian roulette); "
+     "the "
+     "picture is right all the same."},
+    {"clamp", &PathSettings::clamp, at_least_zero, "",
+     "The most that indirect light may add to a sample, against bright specks; 0 is no limit. With a limit "
+     "the "
+     "picture is darker than right."},
+    {"until", &PathSettings::until, zero_to_one, "",
+     "Go on, `image.samples` at first, until the noise is no more than this share of the picture's mean "
+     "luminance (one standard deviation, root mean square over the pixels); 0: `image.samples` and no more."},
+    {"max_samples",
+     &PathSettings::max_samples,
+     {1, 1 << 20},
+     "",
+     "With `until`: the most samples of a pixel, whatever noise is left."},
+};
+
 /// What a debug view makes a colour of: something about what the eye's ray meets first, or how many rays were
 /// asked. The formulas are in integrators/view.h.
 enum class View { normals, depth, uv, primitives, objects, materials, rays, cosine };
@@ -393,15 +431,21 @@ struct Axis {
   Vec3<double> point{0, 0, 0}, direction{0, 1, 0};
 };
 
+/// Who makes the picture of the scene.
+enum class Integrator { whitted, view, path };
+
 struct Scene {
   std::string name;  ///< The input's file name, without its folder.
   Camera camera;
   ImageSettings image;
   FilmSettings film;
   Illumination illumination;
-  WhittedSettings whitted;           ///< With a view: the rays that View::rays counts.
-  std::optional<ViewSettings> view;  ///< In place of the colours.
-  Rgb background{0, 0, 0};           ///< What rays see that meet nothing; with an image a factor on it.
+  Integrator integrator = Integrator::whitted;
+  // The settings of each.
+  WhittedSettings whitted;  ///< With a view: the rays that View::rays counts.
+  ViewSettings view;
+  PathSettings path;
+  Rgb background{0, 0, 0};  ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;
   double background_turn = 0;    ///< Degrees about the vertical, counter-clockwise from above.
@@ -417,6 +461,11 @@ struct Scene {
   std::vector<std::string> model_cameras;  ///< The names of the cameras that it brings.
   std::optional<Axis> axis;                ///< The model's vertical. Unset: the camera's, through its target.
 };
+
+/// Whether samples are taken until the noise is low enough.
+inline bool is_progressive(const Scene& scene) {
+  return scene.integrator == Integrator::path && scene.path.until > 0;
+}
 
 /// The model by which a material is lit, a number that it gives that model, and how light fades under a
 /// model: what is written, or else what holds where nothing is.

@@ -64,6 +64,12 @@ std::shared_ptr<Scene> read(std::string_view yaml, const std::string& name, cons
     set("background", is_image_name(options.background)
                           ? background_text(fs::absolute(options.background).lexically_normal().string())
                           : options.background);
+  // The settings that the file has for it count; without any its defaults do.
+  if (!options.integrator.empty()) {
+    const Node* given = document.root ? value_of(*document.root, "integrator") : nullptr;
+    if (given == nullptr || value_of(*given, options.integrator) == nullptr)
+      set("integrator." + options.integrator, "{}");
+  }
   for (const auto& [key, value] : options.set) set(key, value);
   auto scene = std::make_shared<Scene>();
   try {

@@ -177,12 +177,6 @@ void read_illumination(Reader& reader, const Value& value, Illumination& illumin
   }
 }
 
-void read_whitted(Reader& reader, const Value& value, WhittedSettings& whitted) {
-  const auto& fields = find(format().integrators, "whitted")->fields;
-  if (const auto values = reader.mapping(value, fields, "the integrator whitted"))
-    reader.table(*values, fields, whitted);
-}
-
 /// The light whose N.L a view shows: one by name, or the only one there is. The lights have been read.
 void choose_light(Reader& reader, const Values& values, const std::vector<Light>& lights,
                   ViewSettings& view) {
@@ -202,39 +196,74 @@ void choose_light(Reader& reader, const Values& values, const std::vector<Light>
   }
 }
 
-void read_view(Reader& reader, const Value& value, Scene& scene) {
-  const auto& fields = find(format().integrators, "view")->fields;
-  const auto values = reader.mapping(value, fields, "the integrator view");
-  if (!values) return;
-  ViewSettings view;
-  reader.table(*values, fields, view);
-  reader.table(*values, fields, scene.whitted);
-  const Value* show = values->find("show");
-  if (show == nullptr || !reader.choice(*show, view.show)) return;
-  choose_light(reader, *values, scene.lights, view);
-  scene.view = view;
+/// The settings of the integrator `name`, from its table.
+template <class Settings>
+std::optional<Values> read_settings(Reader& reader, const std::string& name, const Value& value,
+                                    Settings& settings) {
+  const auto& fields = find(format().integrators, name)->fields;
+  auto values = reader.mapping(value, fields, "the integrator " + name);
+  if (values) reader.table(*values, fields, settings);
+  return values;
 }
 
-/// One of the two. But a setting from outside the file puts its integrator in the place of the file's; a view
-/// then counts rays by the `whitted` that is there, too.
+void read_view(Reader& reader, const Value& value, Scene& scene) {
+  const auto values = read_settings(reader, "view", value, scene.view);
+  if (!values) return;
+  reader.table(*values, find(format().integrators, "view")->fields, scene.whitted);
+  const Value* show = values->find("show");
+  if (show != nullptr && reader.choice(*show, scene.view.show))
+    choose_light(reader, *values, scene.lights, scene.view);
+}
+
+/// Which text said the latest of what stands in a value: 0 is the file, others come from outside.
+int newest_source(const Node& node) {
+  int newest = node.source;
+  for (const Node* child : node.children) newest = std::max(newest, newest_source(*child));
+  return newest;
+}
+
+/// One of them. But settings from outside put their integrator in the place of the file's; a view then counts
+/// rays by the `whitted` that is there, too.
 void read_integrator(Reader& reader, const Value& value, Scene& scene) {
   const auto values = reader.mapping(value, format().integrator.fields, "the integrator");
   if (!values) return;
   if (values->values.empty() && !values->unknown_keys)
     reader.error(value.place(), "'integrator' names none",
                  "it is one of: " + join(names_of(format().integrators)));
-  const Value *whitted = values->find("whitted"), *view = values->find("view");
-  if (whitted != nullptr) read_whitted(reader, *whitted, scene.whitted);
-  if (view == nullptr) return;
-  const Node* show = value_of(*view->node, "show");
-  const bool from_outside = view->key->source > 0 || (show != nullptr && show->source > 0);
-  if (whitted == nullptr || from_outside || whitted->key->source == 0) read_view(reader, *view, scene);
-  if (whitted == nullptr || whitted->key->source != view->key->source || show == nullptr ||
-      show->source != view->key->source)
-    return;
-  const Value &first = values->values[0], &second = values->values[1];
-  reader.error(*second.key, second.label + " stands beside " + first.label,
-               "a picture is made by one of them; 'lambent render --view' shows any scene's views");
+  const Value* chosen = nullptr;
+  int chosen_source = -1;
+  for (const Value& one : values->values) {
+    const int source = std::max(one.key->source, newest_source(*one.node));
+    if (chosen != nullptr && source == chosen_source && source == one.key->source &&
+        source == chosen->key->source) {
+      reader.error(
+          *one.key, one.label + " stands beside " + chosen->label,
+          "a picture is made by one of them; 'lambent render --integrator' and '--view' show any scene "
+          "by others");
+      return;
+    }
+    const bool counts_rays = chosen != nullptr && chosen_source > 0 && chosen->key->text == "view";
+    if (source > chosen_source && !(counts_rays && one.key->text == "whitted"))
+      chosen = &one, chosen_source = source;
+    else if (source > 0 && one.key->text == "view" && chosen->key->text == "whitted") chosen = &one;
+  }
+  for (const Value& one : values->values)
+    if (one.key->text == "whitted") read_settings(reader, "whitted", one, scene.whitted);
+  if (chosen == nullptr) return;
+  scene.integrator = *meaning_of<Integrator>(chosen->key->text);
+  if (scene.integrator == Integrator::view) read_view(reader, *chosen, scene);
+  if (scene.integrator == Integrator::path) read_settings(reader, "path", *chosen, scene.path);
+}
+
+/// Of path tracing: many samples where none are given, spread over the pixel whatever the pattern.
+void settle_samples(Reader& reader, const Value* given, ImageSettings& image) {
+  constexpr int usual = 64;
+  const Node* samples = given != nullptr ? value_of(*given->node, "samples") : nullptr;
+  if (samples == nullptr) image.samples = usual;
+  if (image.adaptive && samples != nullptr)
+    reader.error(*samples, "adaptive samples are for integrators without noise",
+                 "for 'path' write integrator: {path: {until: 0.01}}: samples until the noise is 1 %");
+  image.pattern = Pattern::stratified;
 }
 
 /// A name that may be given once only; the default where none is given.
@@ -403,7 +432,8 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         for (std::size_t i = 0; i < objects->size(); ++i)
           object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
       }
-    if (scene.view && scene.film.layers)
+    if (scene.integrator == Integrator::path) settle_samples(reader, top->find("image"), scene.image);
+    if (scene.integrator == Integrator::view && scene.film.layers)
       reader.error(*value_of(*top->find("film")->node, "layers"), "a view has no layers",
                    "layers are what the colours of 'whitted' are made of; leave out one of the two");
   }

@@ -74,10 +74,11 @@ std::string integrator_summary(const Scene& scene) {
                                           !whitted.shadows          ? "off"
                                           : whitted.colored_shadows ? "coloured"
                                                                     : "opaque");
-  if (!scene.view) return tracing;
-  const std::string view = "view of " + text_of(scene.view->show);
-  if (scene.view->show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view->light);
-  return scene.view->show == View::rays ? view + ": " + tracing : view;
+  if (scene.integrator == Integrator::path) return fmt::format("path, max_depth {}", scene.path.max_depth);
+  if (scene.integrator != Integrator::view) return tracing;
+  const std::string view = "view of " + text_of(scene.view.show);
+  if (scene.view.show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view.light);
+  return scene.view.show == View::rays ? view + ": " + tracing : view;
 }
 
 /// Nothing is decoded here, so nothing has to be held back.
@@ -125,7 +126,9 @@ SceneSummary summarize(const ScenePtr& pointer) {
   summary.width = scene.image.width;
   summary.height = scene.image.height;
   const auto& adaptive = scene.image.adaptive;
-  summary.samples = !adaptive ? scene.image.samples : scene.view ? adaptive->start : adaptive->max;
+  summary.samples = !adaptive                              ? scene.image.samples
+                    : scene.integrator == Integrator::view ? adaptive->start
+                                                           : adaptive->max;
   summary.camera = camera_text(scene.camera);
   summary.model = model_text(scene.illumination);
   summary.integrator = integrator_summary(scene);

@@ -15,10 +15,18 @@ std::string yaml_quoted(std::string_view text) {
 
 std::string integrator_text(const Scene& scene) {
   const std::string whitted = settings_text(scene.whitted, Wanted::all);
-  if (!scene.view) return fmt::format("{{whitted: {{{}}}}}", whitted);
-  const std::string view = settings_text(*scene.view, Wanted::what_differs);
-  return fmt::format("{{view: {{show: {}, {}{}{}}}}}", text_of(scene.view->show), view,
-                     view.empty() ? "" : ", ", whitted);
+  switch (scene.integrator) {
+    case Integrator::whitted:
+      break;
+    case Integrator::path:
+      return fmt::format("{{path: {{{}}}}}", settings_text(scene.path, Wanted::all));
+    case Integrator::view: {
+      const std::string view = settings_text(scene.view, Wanted::what_differs);
+      return fmt::format("{{view: {{show: {}, {}{}{}}}}}", text_of(scene.view.show), view,
+                         view.empty() ? "" : ", ", whitted);
+    }
+  }
+  return fmt::format("{{whitted: {{{}}}}}", whitted);
 }
 
 std::string light_text(const Light& light, Wanted wanted) {

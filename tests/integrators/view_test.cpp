@@ -317,7 +317,7 @@ TEST(ViewMessages, NameTheNearestRemedy) {
             R"(scene.yaml:3:27: error: 'view' stands beside 'whitted'
     integrator: {whitted: {}, view: {show: uv}}
                               ^
-    hint: a picture is made by one of them; 'lambent render --view' shows any scene's views
+    hint: a picture is made by one of them; 'lambent render --integrator' and '--view' show any scene by others
 )");
   EXPECT_EQ(report(head + "film: {layers: true}\nintegrator: {view: {show: uv}}\n"),
             R"(scene.yaml:3:16: error: a view has no layers
@@ -334,18 +334,18 @@ TEST(ViewSettings, FromOutsideTakeThePlaceOfTheFilesIntegrator) {
   };
   const std::string whitted = "{whitted: {max_depth: 9}}", uv = "{view: {show: uv, max_depth: 9}}";
   ScenePtr scene = read(whitted, {{"integrator.view.show", "depth"}});
-  ASSERT_TRUE(scene->view);
-  EXPECT_EQ(scene->view->show, View::depth);
+  ASSERT_EQ(scene->integrator, Integrator::view);
+  EXPECT_EQ(scene->view.show, View::depth);
   EXPECT_EQ(scene->whitted.max_depth, 9) << "the rays that would be counted are the file's";
   scene = read(uv, {{"integrator.whitted.shadows", "false"}});
-  EXPECT_FALSE(scene->view);
+  EXPECT_EQ(scene->integrator, Integrator::whitted);
   EXPECT_FALSE(scene->whitted.shadows);
   scene = read(uv, {{"integrator.view.show", "depth"}, {"integrator.whitted.max_depth", "3"}});
-  ASSERT_TRUE(scene->view);
-  EXPECT_EQ(scene->view->show, View::depth);
+  ASSERT_EQ(scene->integrator, Integrator::view);
+  EXPECT_EQ(scene->view.show, View::depth);
   scene = read(whitted, {{"integrator", uv}});
-  ASSERT_TRUE(scene->view);
-  EXPECT_EQ(scene->view->show, View::uv);
+  ASSERT_EQ(scene->integrator, Integrator::view);
+  EXPECT_EQ(scene->view.show, View::uv);
   EXPECT_EQ(errors_of(head, {{{"integrator", "{whitted: {}, view: {show: uv}}"}}}).size(), 1u);
 }
 
