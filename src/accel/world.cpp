@@ -94,7 +94,8 @@ class Builder {
   Builder(const Scene& scene, TreeQuality quality) : scene_(scene), quality_(quality) {}
 
   World build() {
-    world_.material_transmits = std::make_unique<bool[]>(scene_.materials.size() + 1);
+    place_lights();
+    world_.material_transmits = std::make_unique<bool[]>(scene_.materials.size() + world_.lights.size() + 1);
     for (std::size_t i = 0; i < scene_.materials.size(); ++i)
       world_.material_transmits[i] = may_transmit(scene_.materials[i]);
     // What vertices let through, their material does.
@@ -113,6 +114,7 @@ class Builder {
       const Shape& shape = scene_.shapes[object.shape];
       at_top += can_bake(shape, object.world_from_object, shown[object.shape]) ? primitive_count(shape) : 1;
     }
+    for (const StandingLight& light : world_.lights) at_top += primitive_count(light.shape);
     Pages<BoxedPrimitive> top(at_top);
     for (const Object& object : scene_.objects) {
       const auto index = std::uint32_t(world_.objects.size());
@@ -121,13 +123,7 @@ class Builder {
       const Shape& shape = scene_.shapes[object.shape];
       if (primitive_count(shape) == 0) continue;
       if (can_bake(shape, object.world_from_object, shown[object.shape])) {
-        if (joins_others(shape)) {
-          join(shape, object.world_from_object, index);
-          continue;
-        }
-        const std::int32_t geometry = add_geometry(shape, object.world_from_object);
-        world_.geometries[geometry].object = index;
-        add_boxes(geometry, top);
+        bake(shape, object.world_from_object, index, top);
       } else {
         TreeOfShape& tree = tree_of_shape[object.shape];
         if (tree.bvh < 0) {
@@ -139,6 +135,11 @@ class Builder {
         }
         add_instance(object, index, tree, top);
       }
+    }
+    for (std::size_t i = 0; i < world_.lights.size(); ++i) {
+      const auto index = std::uint32_t(world_.objects.size());
+      world_.objects.push_back({&world_.light_materials[i]});
+      bake(world_.lights[i].shape, {}, index, top);
     }
     close_joined(top);
     world_.bvhs[0] = build_tree(std::move(top), quality_, world_);
@@ -154,6 +155,20 @@ class Builder {
     const bool small = primitive_count(shape) <= 16;
     if (shown > 1 && !small) return false;
     return std::holds_alternative<Mesh>(shape.primitives) || uniform_scale(t) > 0;
+  }
+
+  void place_lights() {
+    world_.lights = standing_lights(scene_);
+    for (std::size_t i = 0; i < world_.lights.size(); ++i)
+      world_.light_materials.push_back(std::uint32_t(scene_.materials.size() + i));
+  }
+
+  /// Takes an object's primitives into the world.
+  void bake(const Shape& shape, const Transform& t, std::uint32_t object, Pages<BoxedPrimitive>& boxes) {
+    if (joins_others(shape)) return join(shape, t, object);
+    const std::int32_t geometry = add_geometry(shape, t);
+    world_.geometries[std::size_t(geometry)].object = object;
+    add_boxes(geometry, boxes);
   }
 
   /// Of a shape that is shown by instances.
@@ -186,7 +201,7 @@ class Builder {
               all.primitives.push_back(placed[i]);
               all.objects.push_back(object);
               all.materials.push_back(
-                  scene_.objects[object]
+                  world_.objects[object]
                       .materials[shape.material_of_primitive.empty() ? 0 : shape.material_of_primitive[i]]);
             }
           }

@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/standing_lights.h"
 
 namespace lambent {
 
@@ -114,10 +114,12 @@ struct WorldView {
   const ObjectRecord* objects;
   const PrimitiveRef* planes;  ///< Infinite planes: they have no box, and are asked apart.
   std::uint32_t plane_count;
-  const bool* material_transmits;  ///< For each material of the scene.
+  const bool* material_transmits;  ///< For each material of the scene and of standing lights.
 };
 
-/// Owns what WorldView points at. It refers to the scene's arrays where it can, so the scene must outlive it.
+/// Owns what WorldView points at. Objects and materials are the scene's, then those of its lights that stand
+/// in the world (standing_lights). It refers to the scene's arrays where it can, so the scene must outlive
+/// it.
 struct World {
   std::vector<Bvh> bvhs;
   std::vector<BvhNode> nodes;
@@ -138,6 +140,8 @@ struct World {
   std::vector<std::unique_ptr<std::vector<Disc>>> placed_discs;
   std::vector<std::unique_ptr<std::vector<Plane>>> placed_planes;
   std::vector<std::unique_ptr<std::vector<std::uint32_t>>> placed_numbers;
+  std::vector<StandingLight> lights;           ///< Objects after the scene's own,
+  std::vector<std::uint32_t> light_materials;  ///< each with its material.
 
   WorldView view() const;
 };

@@ -45,7 +45,7 @@ class Notes {
     DerivedRay& ray = to_.rays[seen.ray];
     ray.hits = true;
     ray.hit = seen;
-    ray.material = to_.scene->materials[seen.material];
+    ray.material = to_.given_material(seen.material);
     ray.material.ambient = seen.numbers.ambient;
     ray.material.diffuse = seen.numbers.diffuse;
     ray.material.specular = seen.numbers.specular;
@@ -62,14 +62,15 @@ class Notes {
       for (ray.primitive = 0; ray.primitive < seen.primitive &&
                               g.object_of_primitive[seen.primitive - ray.primitive - 1] == ray.object;)
         ++ray.primitive;
-    ray.lights.resize(std::size_t(frame_.light_count));
+    ray.lights.resize(std::size_t(frame_.light_point_count));
+    for (std::size_t p = 0; p < ray.lights.size(); ++p) ray.lights[p].point = frame_.light_points[p];
   }
   void light(const SeenLight& seen) {
     DerivedRay& ray = to_.rays[seen.ray];
-    DerivedLight& light = ray.lights[std::size_t(seen.light)];
+    DerivedLight& light = ray.lights[std::size_t(seen.point)];
     light.seen = seen;
     light.NL = dot(ray.hit.N, seen.L);
-    if (seen.asked) light.obstacles = on_the_way(ray.hit.start, seen.L, seen.r);
+    if (seen.asked) light.obstacles = on_the_way(ray.hit.start, seen.toward, seen.far);
     const bool blocked = !light.obstacles.empty() && light.obstacles.back().blocks;
     light.state = !(light.NL > 0)         ? LightState::behind
                   : is_black(seen.I)      ? LightState::dark
@@ -86,10 +87,10 @@ class Notes {
         ray.emission = seen.color;
         return;
       case Term::diffuse:
-        ray.lights[std::size_t(seen.light)].diffuse = seen.color;
+        ray.lights[std::size_t(seen.point)].diffuse = seen.color;
         return;
       case Term::specular:
-        ray.lights[std::size_t(seen.light)].specular = seen.color;
+        ray.lights[std::size_t(seen.point)].specular = seen.color;
         return;
     }
   }
@@ -111,11 +112,11 @@ class Notes {
 
   /// What the shadow ray meets, up to the first thing that blocks it: asked for as `transmittance` in the
   /// kernel does.
-  std::vector<Obstacle> on_the_way(const Vec3<double>& start, const Vec3<double>& L, double r) const {
+  std::vector<Obstacle> on_the_way(const Vec3<double>& start, const Vec3<double>& toward, double far) const {
     std::vector<Obstacle> obstacles;
-    QueryRay<float> ray(cast<float>(start), cast<float>(L));
+    QueryRay<float> ray(cast<float>(start), cast<float>(toward));
     const Vec3<double> d = normalize(cast<double>(ray.d));
-    double left = float(r), gone = 0;
+    double left = float(far), gone = 0;
     while (left > 0) {
       Closest<float> hit{float(left)};
       find_closest(frame_.world, ray, true, hit);
@@ -145,6 +146,14 @@ class Notes {
 
 }  // namespace
 
+const Place& Derivation::place_of_object(std::uint32_t object) const {
+  const std::size_t count = scene->objects.size();
+  return object < count ? scene->objects[object].place : standing_lights[object - count].material.place;
+}
+const Material& Derivation::given_material(std::uint32_t material) const {
+  const std::size_t count = scene->materials.size();
+  return material < count ? scene->materials[material] : standing_lights[material - count].material;
+}
 bool Derivation::adds_up() const { return std::equal(pixel, pixel + color_channels, rendered); }
 
 int Derivation::code(int channel) const {
@@ -157,6 +166,7 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   Derivation result;
   const bool corners = scene->image.pattern == Pattern::corners;
   result.scene = std::move(scene);
+  result.standing_lights = standing_lights(*result.scene);
   result.x = x, result.y = y;
 
   // With Pattern::corners the samples are four pixels of the film, of one sample each.

@@ -8,6 +8,7 @@
 
 #include "integrators/kernels.h"
 #include "integrators/prepare.h"
+#include "scene/standing_lights.h"
 
 namespace lambent {
 
@@ -28,7 +29,9 @@ enum class LightState {
   visible,
 };
 
+/// A light, or one of its points.
 struct DerivedLight {
+  LightPoint point{};
   LightState state = LightState::out_of_reach;
   SeenLight seen{};
   double NL = 0;
@@ -44,7 +47,7 @@ struct DerivedRay {
   std::uint32_t object = 0;
   std::int32_t primitive = 0;  ///< Within its shape.
   Rgb ambient{}, emission{};
-  std::vector<DerivedLight> lights;  ///< One for each of the scene's.
+  std::vector<DerivedLight> lights;  ///< One for each point of the scene's lights.
   Rgb color{};                       ///< What it adds, before its weight.
   std::vector<std::uint32_t> children;
   // Of paths:
@@ -68,6 +71,7 @@ struct DerivedSample {
 
 struct Derivation {
   std::shared_ptr<const Scene> scene;
+  std::vector<StandingLight> standing_lights;
   int x, y;
   std::vector<DerivedRay> rays;  ///< By their number.
   std::vector<DerivedSample> samples;
@@ -79,6 +83,9 @@ struct Derivation {
 
   const Material& material_of(const DerivedRay& ray) const { return ray.material; }
   ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
+  /// Where an object was written, or a light that stands in the world; and the material that it was given.
+  const Place& place_of_object(std::uint32_t object) const;
+  const Material& given_material(std::uint32_t material) const;
   /// Whether the terms are the rendered pixel, in every bit.
   bool adds_up() const;
   /// A channel of the pixel in an 8-bit PNG.

@@ -39,8 +39,9 @@ MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
   return with_model(model, [&]<class Model>() { return simplified(formulas, ambient_term<Model>(s, Ia)); });
 }
 
-LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, int l) {
-  const SeenLight& light = ray.lights[std::size_t(l)].seen;
+LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray,
+                             const DerivedLight& derived) {
+  const SeenLight& light = derived.seen;
   LightFormulas result;
   {
     Formulas formulas;
@@ -54,8 +55,9 @@ LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray
   }
   Formulas formulas;
   const auto s = surface_symbols(derivation, ray);
-  const Rgb Il = with_light(derivation.scene->lights[std::size_t(l)].light,
-                            [](const auto& one) { return brightest<double>(one); });
+  const Rgb Il =
+      derived.point.share * with_light(derivation.scene->lights[std::size_t(derived.point.light)].light,
+                                       [](const auto& one) { return brightest<double>(one); });
   const Arriving<Traced, Color<Traced>> arriving{vector_symbol("L", light.L),
                                                  color_symbol("I", light.arriving), color_symbol("Il", Il),
                                                  Traced::symbol("fade", light.faded * share_of(light.I, Il))};

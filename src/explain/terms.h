@@ -14,7 +14,7 @@ struct LightFormulas {
 
 /// Ka Ia / R, with its numbers.
 MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray);
-/// What light l brings at this hit. The values are those of the renderer in every bit.
-LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, int l);
+/// What a light, or one of its points, brings at this hit. The values are those of the renderer in every bit.
+LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray, const DerivedLight& light);
 
 }  // namespace lambent

@@ -130,7 +130,7 @@ class Telling {
     result["Ia_over_R"] = json(ray.hit.Ia);
     result["ambient"] = formula(ambient_formula(d_, ray), ray.ambient);
     result["lights"] = Json::array();
-    for (std::size_t l = 0; l < ray.lights.size(); ++l) result["lights"].push_back(light(ray, int(l)));
+    for (const DerivedLight& light : ray.lights) result["lights"].push_back(this->light(ray, light));
     return result;
   }
 
@@ -139,7 +139,7 @@ class Telling {
     const Material& material = d_.material_of(ray);
     Json result;
     result["object"] = objects_[ray.object];
-    result["object_place"] = json(scene_.objects[ray.object].place);
+    result["object_place"] = json(d_.place_of_object(ray.object));
     result["primitive"] = ray.primitive;
     result["material"] = materials_[ray.hit.material];
     result["material_place"] = json(material.place);
@@ -174,13 +174,17 @@ class Telling {
     return "visible";
   }
 
-  Json light(const DerivedRay& ray, int l) const {
-    const DerivedLight& light = ray.lights[std::size_t(l)];
+  Json light(const DerivedRay& ray, const DerivedLight& light) const {
+    const Light& which = scene_.lights[std::size_t(light.point.light)];
     Json result;
-    result["light"] = scene_.lights[std::size_t(l)].name;
-    result["kind"] = with_light(scene_.lights[std::size_t(l)].light,
-                                [](const auto& one) { return std::decay_t<decltype(one)>::info.name; });
-    result["place"] = json(scene_.lights[std::size_t(l)].place);
+    result["light"] = which.name;
+    result["kind"] =
+        with_light(which.light, [](const auto& one) { return std::decay_t<decltype(one)>::info.name; });
+    result["place"] = json(which.place);
+    if (light.point.extended) {
+      result["point"] = {light.point.u, light.point.v};
+      result["counts"] = light.point.share;
+    }
     result["state"] = word_for(light.state);
     if (light.state == LightState::out_of_reach) return result;
     const SeenLight& seen = light.seen;
@@ -202,7 +206,7 @@ class Telling {
       result["diffuse"] = result["specular"] = nullptr;
       return result;
     }
-    const LightFormulas formulas = light_formulas(d_, ray, l);
+    const LightFormulas formulas = light_formulas(d_, ray, light);
     result["vectors"] = Json::object();
     for (const auto& definition : formulas.definitions)
       result["vectors"][definition.name] = {{"equation", definition.formula},

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "explain/terms.h"
 #include "explain/write.h"
 #include "film/layer_book.h"
@@ -99,7 +101,7 @@ class Telling {
 
   void tell_surface(const DerivedRay& ray) {
     tell_where(ray);
-    const Material& material = scene_.materials[ray.hit.material];
+    const Material& material = d_.given_material(ray.hit.material);
     page_.line(fmt::format("material {}{}: {}", materials_[ray.hit.material], place_of(material.place),
                            scattering_of(d_.material_of(ray))));
     equation("P", text_of(ray.hit.P));
@@ -169,9 +171,8 @@ class Telling {
 
   /// What a ray meets, and where.
   void tell_where(const DerivedRay& ray) {
-    const Object& object = scene_.objects[ray.object];
     page_.line(fmt::format("meets {}{}, primitive {}, after {}{}", objects_[ray.object],
-                           place_of(object.place), ray.primitive, short_number(ray.hit.t),
+                           place_of(d_.place_of_object(ray.object)), ray.primitive, short_number(ray.hit.t),
                            ray.hit.outside ? "" : ", from inside"));
   }
 
@@ -182,7 +183,7 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
-    if (const std::string how = how_painted(scene_.materials[ray.hit.material]); !how.empty())
+    if (const std::string how = how_painted(d_.given_material(ray.hit.material)); !how.empty())
       page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
@@ -212,11 +213,11 @@ class Telling {
     page_.line("");
     term("ambient", ambient_formula(d_, ray), ray.ambient);
     Rgb so_far = ray.ambient;
-    for (std::size_t l = 0; l < ray.lights.size(); ++l) {
-      tell_light(ray, int(l));
-      so_far = so_far + ray.lights[l].diffuse;
-      so_far = so_far + ray.lights[l].specular;
-      if (shines(ray.lights[l])) {
+    for (const DerivedLight& light : ray.lights) {
+      tell_light(ray, light);
+      so_far = so_far + light.diffuse;
+      so_far = so_far + light.specular;
+      if (shines(light)) {
         page_.begin();
         page_.equation("sum", {written(so_far, page_.notation())}, "so far");
         page_.end();
@@ -233,10 +234,12 @@ class Telling {
 
   static bool shines(const DerivedLight& light) { return !is_black(light.seen.arriving); }
 
-  void tell_light(const DerivedRay& ray, int l) {
-    const DerivedLight& light = ray.lights[std::size_t(l)];
-    const Light& which = scene_.lights[std::size_t(l)];
-    const std::string name = fmt::format("Light {}{}", which.name, place_of(which.place));
+  void tell_light(const DerivedRay& ray, const DerivedLight& light) {
+    const Light& which = scene_.lights[std::size_t(light.point.light)];
+    std::string name = fmt::format("Light {}{}", which.name, place_of(which.place));
+    if (light.point.share < 1)
+      name += fmt::format(", at u {}, v {}, which counts 1/{}", short_number(light.point.u),
+                          short_number(light.point.v), std::lround(1 / light.point.share));
     page_.line("");
     if (light.state == LightState::out_of_reach) return page_.line(name + ": does not reach this far");
     const SeenLight& seen = light.seen;
@@ -249,7 +252,7 @@ class Telling {
     else if (light.state == LightState::dark) page_.line("dark in this direction");
     tell_obstacles(light);
     if (shines(light)) {
-      const LightFormulas formulas = light_formulas(d_, ray, l);
+      const LightFormulas formulas = light_formulas(d_, ray, light);
       term("I", formulas.arriving, seen.arriving);
       for (const auto& definition : formulas.definitions)
         page_.equation(definition.name,
@@ -262,9 +265,8 @@ class Telling {
 
   void tell_obstacles(const DerivedLight& light) {
     for (const Obstacle& obstacle : light.obstacles) {
-      const Object& object = scene_.objects[obstacle.object];
       page_.line(fmt::format("{} {}{}, {} away{}", obstacle.blocks ? "blocked by" : "through",
-                             objects_[obstacle.object], place_of(object.place),
+                             objects_[obstacle.object], place_of(d_.place_of_object(obstacle.object)),
                              short_number(obstacle.distance),
                              obstacle.blocks ? "" : ", which leaves " + short_color(obstacle.leaves)));
     }

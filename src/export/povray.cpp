@@ -123,6 +123,48 @@ class Writer {
         (1 - one.softness) * falloff, falloff, one.exponent, f.words);
   }
 
+  template <HasExtent L> void write_light(const Light& light, const L& one) {
+    const Fade f = fade(light);
+    const LightBody body = body_of(one);
+    const bool flat = body.kind == LightBody::Kind::parallelogram;
+    // A grid of about as many points.
+    const int side = max(1, int(std::lround(std::sqrt(double(one.samples)))));
+    const Axes<double> axes =
+        axes_around(flat || body.kind == LightBody::Kind::disc ? body.normal : Vec3<double>{0, 0, 1});
+    const Vec3<double> u = flat ? body.u : 2 * body.radius * axes.x,
+                       v = flat ? body.v : 2 * body.radius * axes.y;
+    std::string points;
+    if (side > 1)
+      points = fmt::format(" area_light {}, {}, {}, {}{}", vector(u), vector(v), side, side,
+                           flat                                   ? ""
+                           : body.kind == LightBody::Kind::sphere ? " circular orient"
+                                                                  : " circular");
+    say("light_source {{ {}, {}{}{} }}\n", vector(body.center), rgb(f.factor * one.intensity * one.color),
+        points, f.words);
+    if (body.kind != LightBody::Kind::sphere)
+      remarks_.add(light.place, "lets every light shine alike in all directions; " +
+                                    called("light", light.name) +
+                                    " is meant to shine by the cosine to its normal" +
+                                    (body.two_sided ? "" : ", and on one side alone"));
+    if (one.visible) write_body(body, radiance(one));
+  }
+  /// The light as a thing. It casts no shadow, or it would stand in its own light.
+  void write_body(const LightBody& body, const Rgb& radiance) {
+    const std::string look =
+        fmt::format("pigment {{ rgb 1 }} finish {{ emission {} diffuse 0 }} no_shadow", rgb(radiance));
+    if (body.kind == LightBody::Kind::sphere) {
+      say("sphere {{ {}, {} {} }}\n", vector(body.center), body.radius, look);
+    } else if (body.kind == LightBody::Kind::disc) {
+      say("disc {{ {}, {}, {} {} }}\n", vector(body.center), vector(body.normal), body.radius, look);
+    } else {
+      std::string corners;
+      for (const auto& [u, v] :
+           {Vec2<double>{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}, {-0.5, -0.5}})
+        corners += ", " + vector(body.center + u * body.u + v * body.v);
+      say("polygon {{ 5{} {} }}\n", corners, look);
+    }
+  }
+
   template <class L> void write_light(const Light& light, const L&) {
     remarks_.add(light.place, std::string("has no light of the kind ") + L::info.name + "; " +
                                   called("light", light.name) + " is left out");

@@ -107,6 +107,14 @@ class Writer {
         (1 - one.softness) * one.angle / 2, one.angle / 2, attenuation(), color(one.intensity * one.color));
   }
 
+  template <HasExtent L> void write_light(const Light& light, const L& one) {
+    remarks_.add(light.place,
+                 "has no lights with extent; " + called("light", light.name) +
+                     " is a point, its centre, which shines alike in all directions and is not seen");
+    say("LIGHT CENTER {} RAD 0{} COLOR {}\n", vector(one.center), attenuation(),
+        color(one.intensity * one.color));
+  }
+
   template <class L> void write_light(const Light& light, const L&) {
     remarks_.add(light.place, std::string("has no light of the kind ") + L::info.name + "; " +
                                   called("light", light.name) + " is left out");

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "scene/standing_lights.h"
+
 namespace lambent {
 namespace {
 
@@ -149,12 +151,14 @@ std::vector<std::string> object_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Object& object : scene.objects)
     names.push_back(object.name.empty() ? scene.shapes[object.shape].name : object.name);
+  for (const StandingLight& light : standing_lights(scene)) names.push_back(light.material.name);
   return made_unique(std::move(names));
 }
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Material& material : scene.materials)
     names.push_back(material.name.empty() ? "material" : material.name);
+  for (const StandingLight& light : standing_lights(scene)) names.push_back(light.material.name);
   return made_unique(std::move(names));
 }
 

@@ -73,7 +73,7 @@ std::string layer_part(const std::string& name);
 /// The name of a layer: "light.key.diffuse", "reflection.ambient".
 std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light>& lights);
 /// What people call the scene's objects and materials: their names, or kind and number where they have none;
-/// no two alike.
+/// no two alike. After them come the lights that stand in the world.
 std::vector<std::string> object_names(const Scene& scene);
 std::vector<std::string> material_names(const Scene& scene);
 

@@ -24,6 +24,7 @@ struct MaterialRecord {
   bool gaps;                 ///< Some rays go on as if it were not there.
   int light;                 ///< Of a light that stands in the world: which; otherwise -1.
   int scatter;               ///< For paths: ScatterKind.
+  bool dark_inside;          ///< Its emission is seen from outside alone.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -110,20 +111,22 @@ struct SeenHit {
 };
 struct SeenLight {
   std::uint32_t ray;
-  int light;
+  int point;   ///< Index into Frame::light_points.
   bool open;   ///< False: behind the surface, dark this way, or blocked.
   bool asked;  ///< Whether a shadow ray was thrown.
   Vec3<double> L;
   double r;
-  Rgb I;         ///< Il, before attenuation.
-  double faded;  ///< The attenuation.
-  Rgb share;     ///< What transmitting surfaces leave of it.
-  Rgb arriving;  ///< All of these multiplied: what the model is handed.
+  Rgb I;                ///< Il, before attenuation; as much as the point counts.
+  double faded;         ///< The attenuation.
+  Rgb share;            ///< What transmitting surfaces leave of it.
+  Rgb arriving;         ///< All of these multiplied: what the model is handed.
+  Vec3<double> toward;  ///< The shadow ray goes along this unit vector,
+  double far;           ///< and ends there.
 };
 struct SeenTerm {
   std::uint32_t ray;
   Term term;
-  int light;  ///< -1: of no light.
+  int point;  ///< Index into Frame::light_points; -1: of no light.
   Rgb color;
 };
 struct SeenColor {
@@ -166,6 +169,14 @@ struct Witness {
   void (*search)(void* self, const SeenSearch&);
 };
 
+/// A point of a light, as the lecture's sum over lights sees it: lights without extent have one.
+struct LightPoint {
+  std::int32_t light;  ///< Index into Frame::lights.
+  double u, v;         ///< Which of its points.
+  double share;        ///< How much it counts: 1 / how many there are.
+  bool extended;       ///< Whether the light has extent.
+};
+
 struct EmitterTable;
 
 /// How rays are followed: which kernel renders the frame.
@@ -185,6 +196,8 @@ struct Frame {
   int samples;
   const AnyLight* lights;
   int light_count;
+  const LightPoint* light_points;  ///< Light by light.
+  int light_point_count;
   bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
   const MaterialRecord* materials;
   const MaterialRecord* unpainted;  ///< Likewise, as painting begins: before opacity and conversions.
@@ -193,8 +206,9 @@ struct Frame {
   /// Whether rays carry how wide they are: there are textures. Eye rays begin with these.
   bool cones = false;
   double eye_width = 0, eye_spread = 0;
-  bool any_gaps = false;   ///< Whether a material has gaps,
-  bool any_masks = false;  ///< and light goes through them.
+  bool any_gaps = false;         ///< Whether a material has gaps,
+  bool any_masks = false;        ///< and light goes through them.
+  bool any_dark_inside = false;  ///< Whether a material is.
   FadingRecord fading[model_count];
   Rgb ambient, background;
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
@@ -277,7 +291,7 @@ struct Scratch {
   ColorQueue samples;
   Column<double> layers;  ///< Layer by layer, channel by channel, a batch of samples.
   std::uint32_t layer_columns = 0;
-  Column<std::uint32_t> reaching;  ///< The lights that may reach some of the hits at hand.
+  Column<std::uint32_t> reaching;  ///< The points of lights that may reach some of the hits at hand.
   Column<std::uint32_t>
       open;  ///< For each of these and each packet of a block a bit for each lane that it reaches.
 

@@ -13,6 +13,7 @@ struct PreparedFrame {
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
   std::vector<AnyLight> lights;
+  std::vector<LightPoint> light_points;
   std::vector<MaterialRecord> materials, unpainted;
   std::vector<TextureRecord> textures;
   std::unique_ptr<PreparedEmitters> emitters;  ///< Of paths.
@@ -20,6 +21,10 @@ struct PreparedFrame {
 
 /// Lays a scene out for the kernels; builds its trees.
 std::unique_ptr<PreparedFrame> prepare(const Scene& scene);
+
+/// Point `number` of the pattern in which `count` points lie on a light: each has one of `count` rows and one
+/// of `count` columns of equal width for itself, and they lie alike about the centre.
+Vec2<double> point_of_light(int number, int count);
 
 /// The trees that bring a picture of so many samples to its end soonest.
 TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples);

@@ -84,7 +84,7 @@ Rgb color_of_ray_count(std::uint64_t rays, std::uint64_t most) {
 Frame frame_for(const Frame& frame, View view) {
   Frame result = frame;
   if (view == View::rays) return result;
-  result.light_count = 0;
+  result.light_count = result.light_point_count = 0;
   result.whitted.max_depth = 1;
   return result;
 }

@@ -441,8 +441,12 @@ struct Wavefront {
                         : of_materials(hits, [](const MaterialRecord& m) { return m.shininess; });
   }
   C emission_of(const Hits& hits) const {
-    return hits.painted ? hits.painted->emission
-                        : colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    if (hits.painted) return hits.painted->emission;
+    const C emission = colors_of_materials(hits, [](const MaterialRecord& m) { return m.emission; });
+    if (!frame.any_dark_inside) return emission;
+    const Truth bright =
+        of_materials(hits, [](const MaterialRecord& m) { return m.dark_inside ? 0.0 : 1.0; }) > F(0);
+    return select(either(hits.outside, bright), emission, grey(F(0)));
   }
   C reflect_of(const Hits& hits) const {
     return hits.painted ? hits.painted->reflect
@@ -469,8 +473,21 @@ struct Wavefront {
     return result;
   }
 
-  static QueryRay<Query> shadow_ray(const Hits& hits, const Vec3<F>& L) {
-    return {number_cast<float>(hits.front), number_cast<float>(L)};
+  /// Shadow rays of a packet.
+  struct ShadowRays {
+    QueryRay<Query> rays;
+    Query t_far;
+  };
+  /// From `start`, off the surface, towards the light of P. To a light with extent the ray ends where the
+  /// light says, at P + clear L, though it starts beside P: lifted, it would otherwise go through the light.
+  static ShadowRays shadow_rays(const Vec3<F>& start, const Vec3<F>& P, const LightSample<F, C>& light,
+                                bool extended) {
+    if (!extended)
+      return {{number_cast<float>(start), number_cast<float>(light.L)}, number_cast<float>(light.r)};
+    const Vec3<F> way = P + light.clear * light.L - start;
+    const F r = length(way);
+    const Vec3<F> d = select(r > F(0), (F(1) / r) * way, light.L);
+    return {{number_cast<float>(start), number_cast<float>(d)}, number_cast<float>(r)};
   }
 
   bool all_opaque() const {

@@ -27,13 +27,13 @@ namespace {
 template <bool Seen> struct Work : Wavefront {
   void run() {
     make_room();
-    if (frame.light_count > 0 && !scratch.open.data) {
-      Scratch::grow(scratch.open, std::uint32_t(frame.light_count) * beam);
-      Scratch::grow(scratch.reaching, std::uint32_t(frame.light_count));
+    if (frame.light_point_count > 0 && !scratch.open.data) {
+      Scratch::grow(scratch.open, std::uint32_t(frame.light_point_count) * beam);
+      Scratch::grow(scratch.reaching, std::uint32_t(frame.light_point_count));
     }
     if constexpr (Seen) grow_layers();
-    light_count = frame.light_count;
-    for (int l = 0; l < light_count; ++l) scratch.reaching[l] = std::uint32_t(l);
+    point_count = frame.light_point_count;
+    for (int p = 0; p < point_count; ++p) scratch.reaching[p] = std::uint32_t(p);
     follow_batches(
         &MaterialRecord::model, [&](std::uint32_t count) { begin_batch(count); },
         [&](std::uint32_t ray) { see_background(ray); },
@@ -60,7 +60,7 @@ template <bool Seen> struct Work : Wavefront {
     if constexpr (Seen) add_background(ray, background);
   }
 
-  int light_count = 0;  ///< How many of scratch.reaching.
+  int point_count = 0;  ///< How many of scratch.reaching.
 
   /// Lights that cannot reach any of the hits at hand (spots that shine elsewhere, lights too far away) are
   /// left out for all of them at once: nothing would arrive of them.
@@ -82,10 +82,16 @@ template <bool Seen> struct Work : Wavefront {
     const double margin = 1e-4 * size;
     const Reach box{{lower[0] - margin, lower[1] - margin, lower[2] - margin},
                     {upper[0] + margin, upper[1] + margin, upper[2] + margin}};
-    light_count = 0;
-    for (int l = 0; l < frame.light_count; ++l)
-      if (with_light(frame.lights[l], [&](const auto& light) { return reaches(light, box); }))
-        scratch.reaching[light_count++] = std::uint32_t(l);
+    point_count = 0;
+    int last = -1;
+    bool last_reaches = false;
+    for (int p = 0; p < frame.light_point_count; ++p) {
+      const int l = frame.light_points[p].light;
+      if (l != last)
+        last_reaches = with_light(frame.lights[l], [&](const auto& light) { return reaches(light, box); });
+      last = l;
+      if (last_reaches) scratch.reaching[point_count++] = std::uint32_t(p);
+    }
   }
 
   void shade_group(int group, bool follow_on) {
@@ -96,7 +102,7 @@ template <bool Seen> struct Work : Wavefront {
         if (depth == 1 && task.first_hits)
           for (int i = 0; i < block.count; ++i) note_first_hits(block.at[i], block.hits[i]);
       }
-      for (int i = 0; i < light_count; ++i) look_at_light(i, block);
+      for (int i = 0; i < point_count; ++i) look_at_light(i, block);
       for (int i = 0; i < block.count; ++i) {
         with_model(ModelId(way_to_shade_of(group)), [&]<class Model>() { shade<Model>(block, i); });
         if (follow_on) follow(block.at[i], block.hits[i]);
@@ -133,49 +139,54 @@ template <bool Seen> struct Work : Wavefront {
     if constexpr (Seen) {
       if (frame.witness) {
         tell_hits(at, hits, Ia, open);
-        for (int number = 0; number < light_count; ++number)
+        for (int number = 0; number < point_count; ++number)
           tell_light(number, packet, at, hits, fading.attenuation);
       }
     }
     const auto arriving = [&](int number) -> Arriving<F, C> {
-      const auto l = int(scratch.reaching[number]);
+      const LightPoint& point = frame.light_points[scratch.reaching[number]];
       const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
       if (open == 0) return {hits.N, grey(F(0))};
-      const auto light = sample_light(l, hits.P);
+      const auto light = sample_point(point, hits.P);
       if constexpr (Model::info.unfaded_light) {
         const F faded = attenuate(fading.attenuation, light.r, minimum);
-        const C Il = with_light(frame.lights[l], [](const auto& one) { return brightest<F>(one); });
-        return {light.L, share_that_passes(open, hits, light) * (faded * light.I), Il,
+        const C Il = F(point.share) *
+                     with_light(frame.lights[point.light], [](const auto& one) { return brightest<F>(one); });
+        return {light.L, share_that_passes(open, hits, light, point) * (faded * light.I), Il,
                 faded * share_of(light.I, Il)};
       }
-      return {light.L, share_that_passes(open, hits, light) *
+      return {light.L, share_that_passes(open, hits, light, point) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };
     const C emission = emission_of(hits);
     if constexpr (Seen) {
       see_term(at, LayerPlan::emission, Term::emission, -1, emission);
-      const C I = illuminate<Model>(s, Ia, light_count, arriving, [&](Term term, int number, const C& color) {
-        const int l = number < 0 ? -1 : int(scratch.reaching[number]);
+      const C I = illuminate<Model>(s, Ia, point_count, arriving, [&](Term term, int number, const C& color) {
+        const int point = number < 0 ? -1 : int(scratch.reaching[number]);
+        const int l = number < 0 ? -1 : frame.light_points[point].light;
         const int layer = term == Term::ambient   ? int(LayerPlan::ambient)
                           : term == Term::diffuse ? LayerPlan::diffuse(l)
                                                   : LayerPlan::specular(l);
-        see_term(at, layer, term, l, color);
+        see_term(at, layer, term, point, color);
       });
       add(at, emission + I);
       if (frame.witness) tell_colors(at, emission + I);
     } else {
-      add(at, emission + illuminate<Model>(s, Ia, light_count, arriving));
+      add(at, emission + illuminate<Model>(s, Ia, point_count, arriving));
     }
   }
 
-  LightSample<F, C> sample_light(int l, const Vec3<F>& P) const {
-    return with_light(frame.lights[l], [&](const auto& light) { return sample(light, P, F(0.5), F(0.5)); });
+  LightSample<F, C> sample_point(const LightPoint& point, const Vec3<F>& P) const {
+    auto result = with_light(frame.lights[point.light],
+                             [&](const auto& light) { return sample(light, P, F(point.u), F(point.v)); });
+    if (point.share != 1) result.I = F(point.share) * result.I;
+    return result;
   }
 
   /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
   /// surface (N.L <= 0) or dark in this direction.
   LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
-    const auto l = int(scratch.reaching[number]);
+    const LightPoint& point = frame.light_points[scratch.reaching[number]];
     std::uint32_t* open_bits = &scratch.open[std::size_t(number) * beam];
     QueryRay<Query> rays[beam];
     Query t_far[beam];
@@ -183,12 +194,13 @@ template <bool Seen> struct Work : Wavefront {
     int packet[beam], asked = 0;
     for (int i = 0; i < block.count; ++i) {
       const Hits& hits = block.hits[i];
-      const auto light = sample_light(l, hits.P);
+      const auto light = sample_point(point, hits.P);
       const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
       open_bits[i] = lane_bits(lit);
       if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
-      rays[asked] = shadow_ray(hits, light.L);
-      t_far[asked] = number_cast<float>(light.r);
+      const ShadowRays shadow = shadow_rays(hits.front, hits.P, light, point.extended);
+      rays[asked] = shadow.rays;
+      t_far[asked] = shadow.t_far;
       open[asked] = mask_cast<std::int32_t>(lit);
       counts.shadow += std::uint64_t(__builtin_popcount(open_bits[i]));
       if (frame.listener) tell(rays[asked], open_bits[i], t_far[asked]);
@@ -250,21 +262,20 @@ template <bool Seen> struct Work : Wavefront {
 
   /// How much of a light arrives at the lanes that it reaches: all, or what transmitting surfaces leave of
   /// it.
-  C share_that_passes(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light) const {
+  C share_that_passes(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light,
+                      const LightPoint& point) const {
     const C passes = grey(gather<F>([&](int k) { return open >> k & 1 ? 1.0 : 0.0; }));
     if (all_opaque() || !frame.whitted.shadows) return passes;
-    return passes * transmittance(open, hits, light);
+    return passes * transmittance(open, shadow_rays(hits.front, hits.P, light, point.extended));
   }
 
   /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
   /// order in which the ray meets them.
-  [[gnu::noinline]] C transmittance(std::uint32_t open, const Hits& hits,
-                                    const LightSample<F, C>& light) const {
-    const QueryRay<Query> rays = shadow_ray(hits, light.L);
+  [[gnu::noinline]] C transmittance(std::uint32_t open, const ShadowRays& shadow) const {
     double left[color_channels][lanes] = {};
     for (; open; open &= open - 1) {
       const int k = __builtin_ctz(open);
-      const Rgb one = what_passes(lane(rays, k), float(lane(light.r, k)),
+      const Rgb one = what_passes(lane(shadow.rays, k), lane(shadow.t_far, k),
                                   [&](const auto&... surface) { return share_through(frame, surface...); });
       for (int c = 0; c < color_channels; ++c) left[c][k] = one[c];
     }
@@ -352,11 +363,11 @@ template <bool Seen> struct Work : Wavefront {
   // ---- for those who look closer
 
   /// Tells of a summand, and adds it to its layer: `layer` counts from the first of the ray's way.
-  void see_term(const Lanes& at, int layer, Term term, int light, const C& color) {
+  void see_term(const Lanes& at, int layer, Term term, int point, const C& color) {
     if (frame.witness)
       for (int k = 0; k < at.count; ++k)
         frame.witness->term(frame.witness->self,
-                            {scratch.rays.number[at.ray[k]], term, light, lane_color(color, k)});
+                            {scratch.rays.number[at.ray[k]], term, point, lane_color(color, k)});
     if (!task.layer_sums || all(is_black(color))) return;
     const RayQueue& rays = scratch.rays;
     if (depth == 1) return add(at, color, [&](int c) { return layer_column(layer, c); });
@@ -416,19 +427,24 @@ template <bool Seen> struct Work : Wavefront {
   /// What `arriving` in shade() makes of a light, number by number.
   void tell_light(int number, int packet, const Lanes& at, const Hits& hits,
                   const Attenuation& attenuation) const {
-    const auto l = int(scratch.reaching[number]);
+    const auto p = int(scratch.reaching[number]);
+    const LightPoint& point = frame.light_points[p];
     const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
-    const auto light = sample_light(l, hits.P);
+    const auto light = sample_point(point, hits.P);
+    const ShadowRays shadow = shadow_rays(hits.front, hits.P, light, point.extended);
     const F faded = attenuate(attenuation, light.r, F(frame.minimum_distance));
-    const C share = share_that_passes(open, hits, light), arriving = share * (faded * light.I);
+    const C share = share_that_passes(open, hits, light, point), arriving = share * (faded * light.I);
     const std::uint32_t asked =
         lane_bits(both(Truth(dot(hits.N, light.L) > F(0)), Truth(!is_black(light.I))));
     for (int k = 0; k < at.count; ++k)
       frame.witness->light(
           frame.witness->self,
-          {scratch.rays.number[at.ray[k]], l, bool(open >> k & 1), frame.whitted.shadows && (asked >> k & 1),
+          {scratch.rays.number[at.ray[k]], p, bool(open >> k & 1), frame.whitted.shadows && (asked >> k & 1),
            lane_vector(light.L, k), lane(light.r, k), lane_color(light.I, k), lane(faded, k),
-           lane_color(share, k), lane_color(arriving, k)});
+           lane_color(share, k), lane_color(arriving, k),
+           cast<double>(
+               Vec3<float>{lane(shadow.rays.d.x, k), lane(shadow.rays.d.y, k), lane(shadow.rays.d.z, k)}),
+           double(lane(shadow.t_far, k))});
   }
   void tell_colors(const Lanes& at, const C& color) const {
     for (int k = 0; k < at.count; ++k)

@@ -127,11 +127,11 @@ template <HasExtent Light> Rgb radiance(const Light& light) {
 }
 
 /// How high above a light's surface a shadow ray has to end. The queries run in float, u = 2^-24, and `size`
-/// bounds all coordinates of P and of the light, so that no way is longer than 2 sqrt(3) size. Rounding lifts
-/// or lowers the ray's end over the surface by sqrt(3) u size with its origin and by 2 sqrt(3) u size with
-/// its direction, the light's own corners (centre, normal) likewise by 3 sqrt(3) u size, and the test of
-/// intersect.h is off by 8u of the way's parts: 31 u size at the most together.
-template <class F> F least_height(const F& size) { return F(0x1p-19) * size; }
+/// bounds all coordinates of P and of the light, so that no way is longer than 2 sqrt(3) size. The height of
+/// the ray's end over the light's surface may be off by sqrt(3) u size for the ray's origin, 2 sqrt(3) u size
+/// each for its direction and its length, as much for the light's own place (corners; centre and normal), and
+/// 8u of the way for the test of intersect.h: 40 u size together at the most.
+template <class F> F least_height(const F& size) { return F(0x1p-18) * size; }
 
 /// How much less than r is clear towards a flat surface, on which the light leaves at this cosine.
 template <class F> F clear_of_plane(const F& r, const F& cosine, const F& size) {

@@ -185,6 +185,16 @@ std::vector<Diagnostic> validate(const Scene& scene) {
       report(object.place, who + " reaches beyond 1e10 scene units from the origin",
              "choose a larger unit of length: scale the scene down");
   }
+  for (const Light& light : scene.lights)
+    with_light(light.light, [&]<class L>(const L& one) {
+      if constexpr (HasExtent<L>) {
+        const LightBody body = body_of(one);
+        const double size = length(body.u) + length(body.v) + body.radius;
+        if (!(max_abs(body.center) + size <= largest_coordinate))
+          report(light.place, "'" + light.name + "' reaches beyond 1e10 scene units from the origin",
+                 "choose a larger unit of length: scale the scene down");
+      }
+    });
   return found;
 }
 

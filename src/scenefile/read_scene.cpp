@@ -293,6 +293,15 @@ void read_light_of(Reader& reader, const Value& value, const Section& section, A
       reader.error(target->place(), "'position' and 'target' are the same point",
                    "the light shines from one to the other");
   }
+  // A flat light with sides lies between them.
+  if constexpr (requires { cross(light.u, light.v); }) {
+    const Value* v = values->find("v");
+    // The sine of the angle between the two; what is smaller leaves no digits for where the light faces.
+    if (good && v != nullptr && values->find("u") != nullptr &&
+        !(length(cross(normalize(light.u), normalize(light.v))) > 1e-6))
+      reader.error(v->place(), "'v' lies along 'u': the light has no area",
+                   "they are the light's sides; of a rectangle they are at a right angle");
+  }
   out = light;
 }
 
