@@ -14,7 +14,10 @@ namespace {
 /// Notes what a kernel tells.
 class Notes {
  public:
-  Notes(Derivation& derivation, const Frame& frame) : to_(derivation), frame_(frame) {}
+  Notes(Derivation& derivation, const PreparedFrame& prepared, const Frame& frame)
+      : to_(derivation),
+        materials_(prepared.white.empty() ? derivation.scene->materials : prepared.white),
+        frame_(frame) {}
 
   Witness witness() {
     return {this,
@@ -45,7 +48,7 @@ class Notes {
     DerivedRay& ray = to_.rays[seen.ray];
     ray.hits = true;
     ray.hit = seen;
-    ray.material = to_.scene->materials[seen.material];
+    ray.material = materials_[seen.material];
     ray.material.ambient = seen.numbers.ambient;
     ray.material.diffuse = seen.numbers.diffuse;
     ray.material.specular = seen.numbers.specular;
@@ -139,6 +142,7 @@ class Notes {
   }
 
   Derivation& to_;
+  const std::vector<Material>& materials_;
   const Frame& frame_;
   std::vector<std::size_t> sample_of_;
 };
@@ -157,6 +161,8 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   Derivation result;
   const bool corners = scene->image.pattern == Pattern::corners;
   result.scene = std::move(scene);
+  result.illumination = prepared.illumination;
+  result.background = prepared.frame.background;
   result.x = x, result.y = y;
 
   // With Pattern::corners the samples are four pixels of the film, of one sample each.
@@ -175,7 +181,7 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
     }
 
   Frame frame = prepared.frame;
-  Notes notes(result, frame);
+  Notes notes(result, prepared, frame);
   const Witness witness = notes.witness();
   const RayListener listener = notes.listener();
   frame.witness = &witness;

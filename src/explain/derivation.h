@@ -68,6 +68,8 @@ struct DerivedSample {
 
 struct Derivation {
   std::shared_ptr<const Scene> scene;
+  Illumination illumination;  ///< The scene's, or what its integrator puts in its place; so is
+  Rgb background;
   int x, y;
   std::vector<DerivedRay> rays;  ///< By their number.
   std::vector<DerivedSample> samples;
@@ -78,7 +80,9 @@ struct Derivation {
   std::vector<AskedRay> asked;
 
   const Material& material_of(const DerivedRay& ray) const { return ray.material; }
-  ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
+  ModelId model_of(const DerivedRay& ray) const {
+    return material_of(ray).model.value_or(illumination.model);
+  }
   /// Whether the terms are the rendered pixel, in every bit.
   bool adds_up() const;
   /// A channel of the pixel in an 8-bit PNG.

@@ -38,9 +38,9 @@ class Telling {
     result["scene"] = scene_.name;
     result["size"] = {scene_.image.width, scene_.image.height};
     result["pixel"] = {d_.x, d_.y};
-    result["ambient"] = json(scene_.illumination.ambient);
-    result["background"] = json(scene_.background);
-    result["minimum_distance"] = scene_.illumination.minimum_distance;
+    result["ambient"] = json(d_.illumination.ambient);
+    result["background"] = json(d_.background);
+    result["minimum_distance"] = d_.illumination.minimum_distance;
     result["sample_count"] = d_.samples.size();
     result["central_sample"] = d_.central;
     result["samples"] = Json::array();

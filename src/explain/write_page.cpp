@@ -182,7 +182,7 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
-    if (const std::string how = how_painted(scene_.materials[ray.hit.material]); !how.empty())
+    if (const std::string how = how_painted(material); !how.empty())
       page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
@@ -191,7 +191,7 @@ class Telling {
     const ModelInfo& model = info(d_.model_of(ray));
     page_.line(fmt::format(
         "model {}: Ka Ia{} + sum over the lights of {}", model.name,
-        ambient_attenuation_of(scene_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
+        ambient_attenuation_of(d_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
                                                                                                   : " / R",
         model.equation));
   }

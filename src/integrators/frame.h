@@ -24,6 +24,7 @@ struct MaterialRecord {
   bool gaps;                 ///< Some rays go on as if it were not there.
   int light;                 ///< Of a light that stands in the world: which; otherwise -1.
   int scatter;               ///< For paths: ScatterKind.
+  bool white;                ///< Vertices do not colour it.
 
   // For paint.h:
   const MaterialMap* maps;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "integrators/ambient_occlusion.h"
 #include "scene/uniform_material.h"
 
 namespace lambent {
@@ -130,19 +131,25 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   prepared->tree_quality =
       suitable_quality(primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples);
   prepared->world = build_world(scene, prepared->tree_quality);
+  const bool is_white = scene.integrator == Integrator::ambient_occlusion;
+  if (is_white) block_all_but_cut_outs(scene, prepared->world);
   frame.world = prepared->world.view();
   frame.any_transmits = prepared->world.any_transmits;
 
-  for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
+  if (!is_white)
+    for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();
   frame.light_count = int(prepared->lights.size());
   for (const AnyLight& light : prepared->lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
-  for (const Material& material : scene.materials) {
+  if (is_white)
+    for (const Material& material : scene.materials) prepared->white.push_back(whitened(material));
+  for (const Material& material : is_white ? prepared->white : scene.materials) {
     prepared->unpainted.push_back(unpainted(scene, material));
+    prepared->unpainted.back().white = is_white;
     prepared->materials.push_back(material_record(scene, material, prepared->unpainted.back()));
   }
-  note_vertex_colors(scene, prepared->materials);
+  if (!is_white) note_vertex_colors(scene, prepared->materials);
   frame.materials = prepared->materials.data();
   frame.unpainted = prepared->unpainted.data();
   for (const MaterialRecord& record : prepared->unpainted) {
@@ -151,7 +158,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   }
   for (const Texture& texture : scene.textures) prepared->textures.push_back(texture_record(texture));
   frame.textures = prepared->textures.data();
-  if (scene.background_image) {
+  frame.background = is_white ? grey(1.0) : scene.background;
+  if (scene.background_image && !is_white) {
     frame.environment.texture = prepared->textures[*scene.background_image];
     frame.environment.turn = scene.background_turn / 360;
     frame.environment.z_up = scene.background_z_up;
@@ -164,24 +172,26 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   const double share = 1 / std::sqrt(double(sharing));
   frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
   frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
+  frame.whitted = scene.whitted;
+  if (is_white) frame.whitted.max_depth = 1;
   frame.layers.lights = frame.light_count;
   if (scene.integrator == Integrator::path) {
     frame.layers.lights = path_source_count(frame.light_count);
-  } else if (scene.whitted.max_depth > 1)
+  } else if (frame.whitted.max_depth > 1)
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
         frame.layers.refraction |= prepared->materials[m].transmits;
         frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
       }
+  prepared->illumination = is_white ? even_sky(scene.ambient_occlusion) : scene.illumination;
+  const Illumination& illumination = prepared->illumination;
   for (int model = 0; model < model_count; ++model)
-    frame.fading[model] = {attenuation_of(scene.illumination, ModelId(model)),
-                           ambient_attenuation_of(scene.illumination, ModelId(model))};
-  frame.ambient = scene.illumination.ambient;
-  if (scene.illumination.occlusion) frame.occlusion = *scene.illumination.occlusion;
-  frame.minimum_distance = scene.illumination.minimum_distance;
-  frame.background = scene.background;
-  frame.whitted = scene.whitted;
+    frame.fading[model] = {attenuation_of(illumination, ModelId(model)),
+                           ambient_attenuation_of(illumination, ModelId(model))};
+  frame.ambient = illumination.ambient;
+  if (illumination.occlusion) frame.occlusion = *illumination.occlusion;
+  frame.minimum_distance = illumination.minimum_distance;
   if (scene.integrator == Integrator::path) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;

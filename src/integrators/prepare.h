@@ -13,6 +13,8 @@ struct PreparedFrame {
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
   std::vector<AnyLight> lights;
+  Illumination illumination;          ///< The scene's, or what the integrator puts in its place.
+  std::vector<Material> white;        ///< What it puts in the place of the scene's materials; or empty.
   std::vector<MaterialRecord> materials, unpainted;
   std::vector<TextureRecord> textures;
 };

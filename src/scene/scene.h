@@ -432,7 +432,7 @@ struct Axis {
 };
 
 /// Who makes the picture of the scene.
-enum class Integrator { whitted, view, path };
+enum class Integrator { whitted, view, path, ambient_occlusion };
 
 struct Scene {
   std::string name;  ///< The input's file name, without its folder.
@@ -445,6 +445,7 @@ struct Scene {
   WhittedSettings whitted;  ///< With a view: the rays that View::rays counts.
   ViewSettings view;
   PathSettings path;
+  AmbientOcclusion ambient_occlusion;  ///< Of the integrator; that of the ambient term is in `illumination`.
   Rgb background{0, 0, 0};  ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;

@@ -312,11 +312,19 @@ Format make_format() {
               fields_of<PathSettings>());
   path.equation = "L(P, V) = Le(P, V) + integral over the sphere of  f(P, L, V) L(P, L) |N.L| dL";
   path.source = "Kajiya, The rendering equation, SIGGRAPH 1986";
-  f.integrators = {whitted, path, view};
+  Section occlusion =
+      section("ambient_occlusion", "white surfaces under a white, even sky: how open each place is",
+              fields_of<AmbientOcclusion>());
+  occlusion.equation = "A = 1 / pi  integral over the directions L above P of  V(P, L) (N.L)+ dL";
+  occlusion.source =
+      "Zhukov, Iones, Kronin, An ambient light illumination model, Eurographics Workshop on Rendering 1998";
+  f.integrators = {whitted, path, occlusion, view};
   f.integrator = section(
       "integrator", "how rays are followed, and what is shown of them: one of these",
       {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
        field("path", FieldType::section, "", "All light there is, by chance: the rendering equation."),
+       field("ambient_occlusion", FieldType::section, "",
+             "No lights and no colours: how open to the sky each place is."),
        field("view", FieldType::section, "", "Not colours, but what the eye's rays meet first.")});
   f.light = section("light", "a light",
                     {field("name", FieldType::name, "",

@@ -191,6 +191,13 @@ way round and the height, boxes, rectangles and polygons those of the plane they
 
 )";
 
+constexpr const char* occlusion_integrator_text =
+    R"(`integrator: {ambient_occlusion: {}}` shows A alone, in grey: as if all surfaces were white and opaque, and an even, white sky
+their only light. The materials' colours, the lights and the background do not count; cut-outs (`alpha: mask`), `one_sided`, normal and bump
+maps do. Directions are chosen as for the ambient term (above), `rays` of them for each sample. `image.samples` is 64 for it where not given.
+
+)";
+
 constexpr const char* view_text =
     R"(`lambent render scene.yaml --view normals` shows a view of any scene, whatever its `integrator` says. Each pixel is the mean
 over its samples of a colour made of what the eye's ray meets first; where it meets nothing it is black:
@@ -308,7 +315,8 @@ std::string scene_manual() {
       "brings the attenuations "
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
-  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + view_text;
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) +
+          occlusion_integrator_text + view_text;
   text +=
       "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
       " - {name: lamp, point: "

@@ -253,13 +253,17 @@ void read_integrator(Reader& reader, const Value& value, Scene& scene) {
   scene.integrator = *meaning_of<Integrator>(chosen->key->text);
   if (scene.integrator == Integrator::view) read_view(reader, *chosen, scene);
   if (scene.integrator == Integrator::path) read_settings(reader, "path", *chosen, scene.path);
+  if (scene.integrator == Integrator::ambient_occlusion)
+    read_settings(reader, "ambient_occlusion", *chosen, scene.ambient_occlusion);
 }
 
-/// Of path tracing: many samples where none are given, spread over the pixel whatever the pattern.
-void settle_samples(Reader& reader, const Value* given, ImageSettings& image) {
+/// Of integrators that choose directions by chance or by hash: many samples where none are given. Those of
+/// paths are spread over the pixel whatever the pattern.
+void settle_samples(Reader& reader, const Value* given, Integrator integrator, ImageSettings& image) {
   constexpr int usual = 64;
   const Node* samples = given != nullptr ? value_of(*given->node, "samples") : nullptr;
   if (samples == nullptr) image.samples = usual;
+  if (integrator != Integrator::path) return;
   if (image.adaptive && samples != nullptr)
     reader.error(*samples, "adaptive samples are for integrators without noise",
                  "for 'path' write integrator: {path: {until: 0.01}}: samples until the noise is 1 %");
@@ -423,7 +427,8 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         for (std::size_t i = 0; i < objects->size(); ++i)
           object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
       }
-    if (scene.integrator == Integrator::path) settle_samples(reader, top->find("image"), scene.image);
+    if (scene.integrator == Integrator::path || scene.integrator == Integrator::ambient_occlusion)
+      settle_samples(reader, top->find("image"), scene.integrator, scene.image);
     if (scene.integrator == Integrator::view && scene.film.layers)
       reader.error(*value_of(*top->find("film")->node, "layers"), "a view has no layers",
                    "layers are what the colours of 'whitted' are made of; leave out one of the two");

@@ -75,6 +75,8 @@ std::string integrator_summary(const Scene& scene) {
                                           : whitted.colored_shadows ? "coloured"
                                                                     : "opaque");
   if (scene.integrator == Integrator::path) return fmt::format("path, max_depth {}", scene.path.max_depth);
+  if (scene.integrator == Integrator::ambient_occlusion)
+    return fmt::format("ambient_occlusion, {} rays for each sample", scene.ambient_occlusion.rays);
   if (scene.integrator != Integrator::view) return tracing;
   const std::string view = "view of " + text_of(scene.view.show);
   if (scene.view.show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view.light);
