@@ -149,6 +149,16 @@ class Notes {
 
 }  // namespace
 
+std::optional<DerivedLens> Derivation::lens_of(const DerivedSample& sample) const {
+  const CameraRecord camera = camera_record(scene->camera);
+  if (!(camera.lens_radius > 0)) return {};
+  const SeenRay& ray = rays[sample.eye_ray].seen;
+  const Vec3<double> focus = ray.o + (camera.focus / dot(ray.d, camera.forward)) * ray.d;
+  const bool flat = scene->camera.projection == Projection::orthographic;
+  const Vec3<double> off_centre = ray.o - (flat ? focus - camera.focus * camera.forward : camera.eye);
+  return DerivedLens{{dot(off_centre, camera.right), dot(off_centre, camera.up)}, focus};
+}
+
 bool Derivation::adds_up() const { return std::equal(pixel, pixel + color_channels, rendered); }
 
 int Derivation::code(int channel) const {

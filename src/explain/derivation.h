@@ -58,6 +58,12 @@ struct DerivedSummand {
   Rgb color;
 };
 
+/// Where a sample's first ray goes through the lens.
+struct DerivedLens {
+  Vec2<double> at;     ///< From its centre, to the right and up, in scene units.
+  Vec3<double> focus;  ///< The point of the plane in focus that it goes through.
+};
+
 /// A sample: its first ray, and what is added, in order.
 struct DerivedSample {
   double x = 0, y = 0;  ///< In pixels from the picture's top left corner.
@@ -83,6 +89,8 @@ struct Derivation {
   ModelId model_of(const DerivedRay& ray) const {
     return material_of(ray).model.value_or(illumination.model);
   }
+  /// Of a camera that has a lens.
+  std::optional<DerivedLens> lens_of(const DerivedSample& sample) const;
   /// Whether the terms are the rendered pixel, in every bit.
   bool adds_up() const;
   /// A channel of the pixel in an 8-bit PNG.

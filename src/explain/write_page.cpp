@@ -32,6 +32,9 @@ class Telling {
     page_.line(fmt::format("Sample {} of {}, at {}, {}{}.", number, d_.samples.size(), short_number(sample.x),
                            short_number(sample.y),
                            number == d_.central ? ", the nearest to the pixel's centre" : ""));
+    if (const auto lens = d_.lens_of(sample))
+      page_.line(fmt::format("It goes through the lens at ({}, {}) from its centre, and is in focus at {}.",
+                             short_number(lens->at.x), short_number(lens->at.y), text_of(lens->focus)));
     if (scene_.integrator == Integrator::path) tell_path(sample.eye_ray);
     else tell_ray(sample.eye_ray);
     tell_sums(sample);

@@ -37,6 +37,8 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
     remarks.add({},
                 "is told by its command line how many rays to send through a pixel; the scene's samples are "
                 "left out");
+  if (scene.camera.aperture > 0)
+    remarks.add({}, "is not told of the lens; everything is in focus");
   if (scene.background_image)
     remarks.add({}, "is not given the image around the scene; its factor stands for it");
   if (scene.illumination.occlusion)

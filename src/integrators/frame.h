@@ -50,10 +50,13 @@ struct FadingRecord {
 
 /// Eye rays start at eye + (x * right + y * up) * spread_of_origins, and go along forward + (x * right + y *
 /// up) * spread_of_directions, with x and y in units of half the picture's height, from its centre, x to the
-/// right and y upwards.
+/// right and y upwards. With a lens they start at a point of it instead, a disc around that place across
+/// `forward`, and go through the point where the ray from its centre meets the plane in focus.
 struct CameraRecord {
   Vec3<double> eye, forward, right, up;  ///< The last three of unit length.
   double spread_of_origins, spread_of_directions;
+  double lens_radius = 0;  ///< 0: a pinhole.
+  double focus = 1;        ///< How far before the lens that plane lies.
 };
 
 struct RayCounts {

@@ -12,7 +12,8 @@ namespace lambent {
 CameraRecord camera_record(const Camera& camera) {
   const Vec3<double> forward = normalize(camera.target - camera.eye);
   const Vec3<double> right = normalize(cross(forward, camera.up));
-  CameraRecord record{camera.eye, forward, right, cross(right, forward), 0, 0};
+  CameraRecord record{camera.eye, forward, right, cross(right, forward), 0, 0,
+                      camera.aperture / 2, focus_distance(camera)};
   if (camera.projection == Projection::orthographic) {
     record.spread_of_origins = camera.height / 2;
   } else {

@@ -11,6 +11,7 @@
 #include "accel/surface.h"
 #include "integrators/frame.h"
 #include "integrators/paint.h"
+#include "math/random.h"
 
 // All that is done to a packet of hits in one piece of code, so that it stays in registers.
 #define LAMBENT_FLATTEN __attribute__((flatten))
@@ -84,9 +85,11 @@ struct Wavefront {
   LAMBENT_FLATTEN void throw_eye_rays(std::uint64_t first, std::uint32_t count) {
     RayQueue& rays = scratch.rays;
     rays.count = count;
+    const bool has_lens = frame.camera.lens_radius > 0;
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int sample = task.first_sample + int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
+      if (has_lens) choose_lens_point(i, task.pixels[pixel], sample);
       rays.ox[i] = task.pixels[pixel].x + frame.pattern[sample].x;
       rays.oy[i] = task.pixels[pixel].y + frame.pattern[sample].y;
       rays.sample[i] = i;
@@ -100,8 +103,13 @@ struct Wavefront {
       const F x = (F::load(&rays.ox[i]) - half_width) * per_unit,
               y = (half_height - F::load(&rays.oy[i])) * per_unit;
       const Vec3<F> aside = x * right + y * up;
-      const Vec3<F> o = eye + F(camera.spread_of_origins) * aside,
-                    d = normalize(forward + F(camera.spread_of_directions) * aside);
+      Vec3<F> o = eye + F(camera.spread_of_origins) * aside, d = forward + F(camera.spread_of_directions) * aside;
+      if (has_lens) {
+        const Vec3<F> off_centre = F::load(&rays.dx[i]) * right + F::load(&rays.dy[i]) * up;
+        o = o + off_centre;
+        d = F(camera.focus) * d - off_centre;
+      }
+      d = normalize(d);
       o.x.store(&rays.ox[i]), o.y.store(&rays.oy[i]), o.z.store(&rays.oz[i]);
       d.x.store(&rays.dx[i]), d.y.store(&rays.dy[i]), d.z.store(&rays.dz[i]);
       const Vec3<Query> q = number_cast<float>(o);
@@ -114,6 +122,15 @@ struct Wavefront {
     }
     counts.eye += count;
     if (frame.cones) begin_cones(count);
+  }
+
+  /// Where ray i goes through the lens, in scene units from its centre; kept where its direction will be.
+  /// Which point says nothing about where in its pixel the sample lies, nor about the neighbours' points.
+  void choose_lens_point(std::uint32_t i, const Pixel& pixel, int sample) const {
+    const Vec2<double> point =
+        disc_point(random_point(std::uint32_t(sample), hashed(seed_of_pixel(pixel.x, pixel.y) + lens_pair)));
+    scratch.rays.dx[i] = frame.camera.lens_radius * point.x;
+    scratch.rays.dy[i] = frame.camera.lens_radius * point.y;
   }
 
   /// How wide eye rays are: a pixel, or a sample's share of one. Off the picture's middle pixels cover less

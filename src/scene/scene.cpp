@@ -79,6 +79,10 @@ bool planes_in_reach(const Shape& shape, const Transform& world_from_object) {
 
 }  // namespace
 
+double focus_distance(const Camera& camera) {
+  return camera.focus_distance > 0 ? camera.focus_distance : length(camera.target - camera.eye);
+}
+
 bool may_transmit(const Material& material) {
   return !is_black(material.transmit) || material.opacity < 1 ||
          (material.metallic_roughness && material.metallic_roughness->transmission > 0) ||

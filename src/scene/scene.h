@@ -31,6 +31,8 @@ struct Camera {
   Vec3<double> up{0, 1, 0};
   double fov = 40;
   double height = 2;
+  double aperture = 0;
+  double focus_distance = 0;
 };
 template <>
 inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
@@ -51,7 +53,16 @@ inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
      Kind::direction},
     {"fov", &Camera::fov, {0.01, 179}, "degrees", "Vertical field of view of a perspective camera."},
     {"height", &Camera::height, positive, "scene units", "Height of what an orthographic camera sees."},
+    {"aperture", &Camera::aperture, at_least_zero, "scene units",
+     "Diameter of the lens: what is not in focus is blurred, the more, the larger it is. 0 is a pinhole, "
+     "which "
+     "shows everything sharp."},
+    {"focus_distance", &Camera::focus_distance, at_least_zero, "scene units",
+     "How far in front of the lens, along the way to the target, things are sharp; 0: as far as the target."},
 };
+
+/// Where the camera is in focus: the distance of that plane from the eye.
+double focus_distance(const Camera& camera);
 
 /// Where the samples of a pixel lie.
 enum class Pattern {

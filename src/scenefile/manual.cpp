@@ -147,6 +147,14 @@ sequence, turned in each pixel by a hash of its place), more of them where N.L w
 
 )";
 
+constexpr const char* lens_text =
+    R"(With an `aperture` A the rays of a pixel start all over a lens, a thin one, and meet again where they are in focus: in the plane across the
+view that lies `focus_distance` f from the eye. A point at the depth d is a disc in the picture as large as one of the diameter
+A |d - f| / f would be at the depth d. Which point of the lens a sample takes is a hash of its pixel and number (Owen-scrambled Sobol points, the same on every
+machine): give such pictures some samples, 64 or more.
+
+)";
+
 constexpr const char* background_text =
     R"(A colour, or an image all around the scene, by longitude and latitude (equirectangular): what rays see that meet nothing,
 eye rays and mirror rays alike. It lights nothing. `file: studio` is a dark room with soft lamps, which the program brings and shows
@@ -284,7 +292,7 @@ std::string scene_manual() {
       "## Camera\n\nThe camera looks from `eye` to `target`; `up` says which way is up in the picture and "
       "need not be at a right "
       "angle to the view, only not along it.\n\n" +
-      table(f.camera.fields);
+      table(f.camera.fields) + lens_text;
   text += "## Background\n\n" + std::string(background_text) + table(f.background.fields);
   text += "## Image\n\n" + table(f.image.fields);
   text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";

@@ -56,6 +56,10 @@ void read_camera(Reader& reader, const Value& value, Scene& scene) {
          fmt::format("{} has no effect: the camera is {}", unused->label, text_of(scene.camera.projection)),
          flat ? "the size of an orthographic picture is its 'height'"
               : "the size of a perspective picture is its 'fov'");
+  const Value* focus = values->find("focus_distance");
+  if (focus != nullptr && scene.camera.focus_distance > 0 && scene.camera.aperture == 0)
+    warn(reader, scene, *focus->key, "'focus_distance' has no effect: the camera is a pinhole",
+         "'aperture', the diameter of the lens, blurs what is not in focus");
 }
 
 void read_samples(Reader& reader, const Value& value, ImageSettings& image) {

@@ -63,9 +63,13 @@ void count(SceneSummary& summary, const std::vector<Plane>& planes) { summary.pl
 
 std::string camera_text(const Camera& camera) {
   const bool flat = camera.projection == Projection::orthographic;
-  return fmt::format("{}, {}, from {} to {}", text_of(camera.projection),
-                     flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
-                     plain(camera.eye), plain(camera.target));
+  std::string text =
+      fmt::format("{}, {}, from {} to {}", text_of(camera.projection),
+                  flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
+                  plain(camera.eye), plain(camera.target));
+  if (camera.aperture > 0)
+    text += fmt::format(", aperture {}, in focus {} away", plain(camera.aperture), plain(focus_distance(camera)));
+  return text;
 }
 
 std::string integrator_summary(const Scene& scene) {

@@ -44,9 +44,9 @@ TEST(AmbientOcclusionIntegrator, UnderADisc) {
 }
 
 TEST(AmbientOcclusionIntegrator, BesideAWall) {
-  // An endless wall of height h, x away: half of the sky is behind the wall's plane, and of that half what
-  // lies above the wall is open. Along a strip without end only the angle a in the plane across it counts, and
-  // the strip from 0 to a hides sin(a) / 2: A = 1 - (1 - x / sqrt(x^2 + h^2)) / 2.
+  // An endless wall of height h, x away. Of an endless strip only the angles across it count: what lies between
+  // a and b from the normal has the share (sin b - sin a) / 2. The wall reaches from the horizon, sin b = 1, up
+  // to sin a = x / sqrt(x^2 + h^2).
   for (const double x : {0.01, 0.5, 1.0, 3.0}) {
     const double h = 1;
     const std::string wall = fmt::format(
