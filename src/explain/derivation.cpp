@@ -25,6 +25,7 @@ class Notes {
             [](void* self, const SeenHit& seen) { static_cast<Notes*>(self)->hit(seen); },
             [](void* self, const SeenLight& seen) { static_cast<Notes*>(self)->light(seen); },
             [](void* self, const SeenTerm& seen) { static_cast<Notes*>(self)->term(seen); },
+            [](void* self, const SeenFog& seen) { static_cast<Notes*>(self)->fog(seen); },
             [](void* self, const SeenColor& seen) { static_cast<Notes*>(self)->color(seen); },
             [](void* self, const SeenFind& seen) { static_cast<Notes*>(self)->find(seen); },
             [](void* self, const SeenSearch& seen) { static_cast<Notes*>(self)->search(seen); }};
@@ -96,6 +97,11 @@ class Notes {
         return;
     }
   }
+  void fog(const SeenFog& seen) {
+    DerivedRay& ray = to_.rays[seen.ray];
+    to_.samples[sample_of_[seen.ray]].order.push_back({seen.ray, ray.seen.weight, seen.brings, true});
+    ray.fog = seen;
+  }
   void color(const SeenColor& seen) {
     to_.rays[seen.ray].color = seen.color;
     add(seen.ray, seen.color);
@@ -109,7 +115,9 @@ class Notes {
     if (seen.open) add(seen.ray, seen.brings);
   }
   void add(std::uint32_t ray, const Rgb& color) {
-    to_.samples[sample_of_[ray]].order.push_back({ray, color});
+    const DerivedRay& which = to_.rays[ray];
+    to_.samples[sample_of_[ray]].order.push_back(
+        {ray, which.fog ? which.fog->weight : which.seen.weight, color});
   }
 
   /// What the shadow ray meets, up to the first thing that blocks it: asked for as `transmittance` in the
@@ -205,7 +213,7 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   for (DerivedSample& sample : result.samples) {
     for (const DerivedSummand& summand : sample.order)
       for (int c = 0; c < color_channels; ++c)
-        sample.color[c] += result.rays[summand.ray].seen.weight[c] * summand.color[c];
+        sample.color[c] += summand.weight[c] * summand.color[c];
     result.sum = result.sum + sample.color;
   }
   // Developed as a picture of this pixel alone.

@@ -43,6 +43,7 @@ struct DerivedRay {
   Material material;  ///< With the numbers that it has at this point.
   std::uint32_t object = 0;
   std::int32_t primitive = 0;  ///< Within its shape.
+  std::optional<SeenFog> fog;
   Rgb ambient{}, emission{};
   std::vector<DerivedLight> lights;  ///< One for each of the scene's.
   Rgb color{};                       ///< What it adds, before its weight.
@@ -52,10 +53,12 @@ struct DerivedRay {
   std::optional<SeenSearch> search;
 };
 
-/// What is added to a sample: the ray's weight times a colour.
+/// What is added to a sample: the ray's weight times a colour. Where there is fog on the way the ray counts
+/// once for that, and then for less.
 struct DerivedSummand {
   std::uint32_t ray;
-  Rgb color;
+  Rgb weight, color;
+  bool is_fog = false;
 };
 
 /// Where a sample's first ray goes through the lens.

@@ -85,6 +85,11 @@ class Telling {
     result["direction"] = json(ray.seen.d);
     result["factor"] = json(ray.seen.factor);
     result["weight"] = json(ray.seen.weight);
+    if (ray.fog)
+      result["fog"] = {{"way", finite(ray.fog->way)},
+                       {"share", ray.fog->share},
+                       {"brings", json(ray.fog->brings)},
+                       {"weight", json(ray.fog->weight)}};
     result["color"] = json(ray.color);
     const bool is_path = scene_.integrator == Integrator::path;
     result["hit"] = !ray.hits ? Json(nullptr) : is_path ? surface(ray) : hit(ray);

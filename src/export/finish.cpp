@@ -39,6 +39,7 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
                 "left out");
   if (scene.camera.aperture > 0)
     remarks.add({}, "is not told of the lens; everything is in focus");
+  if (scene.fog.density > 0) remarks.add({}, "is not told of the fog; the air is clear");
   if (scene.background_image)
     remarks.add({}, "is not given the image around the scene; its factor stands for it");
   if (scene.illumination.occlusion)

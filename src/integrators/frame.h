@@ -42,6 +42,12 @@ struct EnvironmentRecord {
   bool z_up = false;  ///< Otherwise y is up.
 };
 
+/// The scene's fog; density 0: none.
+struct FogRecord {
+  Rgb color;
+  double density = 0, start = 0;
+};
+
 /// How light fades under a model: the scene's choice, or the model's own.
 struct FadingRecord {
   Attenuation attenuation;
@@ -130,6 +136,14 @@ struct SeenTerm {
   int light;  ///< -1: of no light.
   Rgb color;
 };
+/// Fog on a ray's way, told before what the ray brings.
+struct SeenFog {
+  std::uint32_t ray;
+  double way;    ///< In the fog; infinite where the ray meets nothing.
+  double share;  ///< What is left of a colour after that way.
+  Rgb brings;    ///< The fog's own: the rest of its colour.
+  Rgb weight;    ///< What the ray's colour counts in its sample from now on.
+};
 struct SeenColor {
   std::uint32_t ray;
   Rgb color;  ///< Of the ray, before its weight; of a ray that met nothing the background.
@@ -165,6 +179,7 @@ struct Witness {
   void (*hit)(void* self, const SeenHit&);
   void (*light)(void* self, const SeenLight&);
   void (*term)(void* self, const SeenTerm&);
+  void (*fog)(void* self, const SeenFog&);
   void (*color)(void* self, const SeenColor&);
   void (*find)(void* self, const SeenFind&);
   void (*search)(void* self, const SeenSearch&);
@@ -201,6 +216,7 @@ struct Frame {
   bool any_masks = false;  ///< and light goes through them.
   FadingRecord fading[model_count];
   Rgb ambient, background;
+  FogRecord fog;
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
   double minimum_distance;
   WhittedSettings whitted;

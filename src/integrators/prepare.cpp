@@ -173,6 +173,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   const double share = 1 / std::sqrt(double(sharing));
   frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
   frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
+  if (!is_white) frame.fog = {scene.fog.color, scene.fog.density, scene.fog.start};
+  frame.layers.fog = frame.fog.density > 0;
   frame.whitted = scene.whitted;
   if (is_white) frame.whitted.max_depth = 1;
   frame.layers.lights = frame.light_count;

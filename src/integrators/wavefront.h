@@ -68,6 +68,7 @@ struct Wavefront {
       begin(count);
       for (depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
+        if (frame.fog.density > 0) pass_fog();
         sort_into_groups(way_to_shade, background);
         if (depth == 1) counts.eye_hits += hit_count();
         scratch.next_rays.count = 0;
@@ -181,6 +182,27 @@ struct Wavefront {
       rays.instance[i] = hit.ids.instance;
       rays.geometry[i] = hit.ids.geometry;
       rays.primitive[i] = hit.ids.primitive;
+    }
+  }
+
+  /// Lays the fog over what rays will bring: the fog's colour is added to their samples, and they count the
+  /// less. Rays that were scattered by chance see no fog: theirs is the light that falls on a surface, which
+  /// would come through no fog either where it was looked for.
+  [[gnu::noinline]] void pass_fog() {
+    constexpr double log2_e = 0x1.71547652b82fep+0;
+    RayQueue& rays = scratch.rays;
+    const FogRecord& fog = frame.fog;
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+      if (rays.density[i] > 0) continue;
+      const double R = rays.R[i], way = max(R + rays.t[i] - fog.start, 0.0) - max(R - fog.start, 0.0);
+      const double share = exp2(-log2_e * fog.density * way);
+      const Rgb brings = (1 - share) * fog.color;
+      add(i, brings);
+      if (task.layer_sums) add_to_layer(i, frame.layers.first_of(rays.way[i]) + frame.layers.fog_layer(), brings);
+      Rgb weight;
+      for (int c = 0; c < color_channels; ++c) weight[c] = rays.weight[c][i] *= share;
+      if (frame.witness)
+        frame.witness->fog(frame.witness->self, {rays.number[i], way, share, brings, weight});
     }
   }
 

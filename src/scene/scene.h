@@ -141,6 +141,22 @@ inline constexpr Parameter<AmbientOcclusion> parameters_of<AmbientOcclusion>[] =
      "What stands farther away hides nothing."},
 };
 
+/// What lies between the eye and all that it sees, thicker with every step: of a colour there remains the share
+/// exp(-density t) after the way t, and the rest is the fog's.
+struct Fog {
+  Rgb color{0.5, 0.5, 0.5};
+  double density = 0;
+  double start = 0;
+};
+template <>
+inline constexpr Parameter<Fog> parameters_of<Fog>[] = {
+    {"color", &Fog::color, at_least_zero, "", "Its colour, which is all that is seen far away."},
+    {"density", &Fog::density, at_least_zero, "1 / scene units",
+     "How fast it hides things: after 1 / density 37 % of a colour are left. 0 is no fog.", true},
+    {"start", &Fog::start, at_least_zero, "scene units",
+     "It begins where rays have come so far from the eye, over all bounces."},
+};
+
 /// The choices of the lecture that hold for the whole scene.
 struct Illumination {
   ModelId model = ModelId::phong;
@@ -457,6 +473,7 @@ struct Scene {
   ViewSettings view;
   PathSettings path;
   AmbientOcclusion ambient_occlusion;  ///< Of the integrator; that of the ambient term is in `illumination`.
+  Fog fog;                  ///< With the density 0: none.
   Rgb background{0, 0, 0};  ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;

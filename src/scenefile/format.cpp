@@ -221,6 +221,8 @@ Format make_format() {
        with(field("turn", FieldType::number, "0", "A turn about the y axis, counter-clockwise from above."),
             {}, "degrees"),
        with(field("color", FieldType::color, "[1, 1, 1]", "A factor on it."), at_least_zero, "")});
+  f.fog = section("fog", "fog: colours fade with the way of the ray that sees them", fields_of<Fog>());
+  f.fog.equation = "exp(-density t) colour + (1 - exp(-density t)) color";
   f.metallic_roughness = section("metallic_roughness", "a material as glTF and modelling programs have it",
                                  fields_of<MetallicRoughness>());
   f.maps = section("maps", "images on a surface", {});
@@ -360,6 +362,7 @@ Format make_format() {
        with(field("background", FieldType::background, text_of(Scene{}.background),
                   "What rays see that hit nothing: a color, or {file: NAME} for a picture all around."),
             at_least_zero, ""),
+       field("fog", FieldType::section, "", "What colours fade into with distance. Not given: none."),
        field("lights", FieldType::sections, "", "The lights, in any number."),
        field("materials", FieldType::sections, "", "Materials that objects refer to by name."),
        field("objects", FieldType::sections, "", "What there is to see.")});

@@ -64,7 +64,7 @@ struct Section {
 
 struct Format {
   Section top, camera, image, film, samples, adaptive, illumination, attenuation, integrator, material;
-  Section background, ambient_occlusion, maps, map, metallic_roughness;
+  Section background, fog, ambient_occlusion, maps, map, metallic_roughness;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.

@@ -106,7 +106,7 @@ at once, with line and column. For completion and checks while you type, point y
 # yaml-language-server: $schema=lambent.schema.json
 ```
 
-Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [image](#image), [film](#film), [illumination](#illumination),
+Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [fog](#fog), [image](#image), [film](#film), [illumination](#illumination),
 [models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
 [transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
@@ -161,6 +161,13 @@ eye rays and mirror rays alike. It lights nothing. `file: studio` is a dark room
 shining models in. The middle lies along -z, u grows to the right as seen from inside, the top row is straight up.
 
     background: {file: venice_sunset_1k.hdr, turn: 90}
+
+)";
+
+constexpr const char* fog_text =
+    R"(is what the eye gets of a colour along a ray of the length t. Rays from the eye see it, and mirrored and refracted ones on each of their ways. What
+meets nothing goes without end, and is wholly the fog's colour, whatever the background. Light on its way to surfaces goes through no fog: shadow rays,
+and what `path` scatters by chance. The lecture's 1/R, by which the ambient term fades, is another matter (`ambient_attenuation`).
 
 )";
 
@@ -294,6 +301,7 @@ std::string scene_manual() {
       "angle to the view, only not along it.\n\n" +
       table(f.camera.fields) + lens_text;
   text += "## Background\n\n" + std::string(background_text) + table(f.background.fields);
+  text += "## Fog\n\n    " + f.fog.equation + "\n\n" + fog_text + table(f.fog.fields);
   text += "## Image\n\n" + table(f.image.fields);
   text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";
   text +=

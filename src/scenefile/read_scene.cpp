@@ -417,6 +417,9 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         reader.table(*film, f.film.fields, scene.film);
     if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
     if (const Value* v = top->find("background")) read_background(reader, *v, files, scene);
+    if (const Value* v = top->find("fog"))
+      if (const auto fog = reader.mapping(*v, f.fog.fields, "the fog"))
+        reader.table(*fog, f.fog.fields, scene.fog);
     if (const Value* v = top->find("lights"))
       if (const auto lights = reader.list(*v, "light")) {
         std::map<std::string, int> taken;

@@ -179,6 +179,7 @@ std::string scene_schema() {
   definitions["object"] = std::move(object);
   definitions["ambient_occlusion"] = object_of(f.ambient_occlusion);
   definitions["background"] = object_of(f.background);
+  definitions["fog"] = object_of(f.fog);
   definitions["metallic_roughness"] = object_of(f.metallic_roughness);
   definitions["maps"] = object_of(f.maps);
   definitions["map"] = object_of(f.map);

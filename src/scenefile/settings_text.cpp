@@ -21,6 +21,7 @@ Metadata settings_metadata(const Scene& scene) {
                    settings_text(i, Wanted::all));
   s += fmt::format("integrator: {}\n", integrator_text(scene));
   s += fmt::format("background: {}\n", text_of(scene.background));
+  if (scene.fog.density > 0) s += fmt::format("fog: {{{}}}\n", settings_text(scene.fog, Wanted::all));
   if (!scene.lights.empty()) s += "lights:\n";
   for (const Light& light : scene.lights) s += fmt::format("  - {}\n", light_text(light, Wanted::all));
   return {{"lambent:version", version()}, {"lambent:scene", scene.name}, {"lambent:settings", s}};

@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "explain/derivation.h"
 #include "explain/terms.h"
@@ -141,10 +142,13 @@ TEST(Explain, TheJsonHasAllThatThePixelIsMadeOf) {
         std::map<unsigned, Json> rays;
         collect(sample["ray"], rays);
         Triple color{};
+        std::set<unsigned> through_fog;
         for (const Json& number : sample["order"]) {
           const Json& ray = rays.at(number.get<unsigned>());
-          const Triple brings = color_of(ray, json["background"]);
-          for (std::size_t c = 0; c < 3; ++c) color[c] += triple(ray["weight"])[c] * brings[c];
+          const bool is_fog = ray.contains("fog") && through_fog.insert(number).second;
+          const Triple weight = triple(ray.contains("fog") && !is_fog ? ray["fog"]["weight"] : ray["weight"]),
+                       brings = is_fog ? triple(ray["fog"]["brings"]) : color_of(ray, json["background"]);
+          for (std::size_t c = 0; c < 3; ++c) color[c] += weight[c] * brings[c];
         }
         for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
       }

@@ -270,7 +270,7 @@ TEST(ReaderMessages, Structure) {
   EXPECT_EQ(
       only("- 1\n- 2\n"),
       "the scene must be a mapping, not a list | its keys are: lambent, camera, image, film, illumination, "
-      "integrator, background, lights, materials, objects");
+      "integrator, background, fog, lights, materials, objects");
   EXPECT_EQ(
       only(head + "---\n" + head),
       "a second YAML document begins here | a scene file holds one; remove the line '---' and what follows");
