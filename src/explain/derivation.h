@@ -70,6 +70,7 @@ struct DerivedLens {
 /// A sample: its first ray, and what is added, in order.
 struct DerivedSample {
   double x = 0, y = 0;  ///< In pixels from the picture's top left corner.
+  double time = 0;      ///< Of the shutter's; where something moves.
   std::uint32_t eye_ray = 0;
   std::vector<DerivedSummand> order;
   Rgb color{};  ///< Their sum.
@@ -100,8 +101,8 @@ struct Derivation {
   int code(int channel) const;
 };
 
-/// Renders pixel x, y once more, and notes what is told. `samples`: how many of the frame's pattern it gets.
-Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
-                  int x, int y, int samples);
+/// Renders pixel x, y once more, and notes what is told. `passes`: which samples it gets.
+Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
+                  const std::vector<Pass>& passes);
 
 }  // namespace lambent

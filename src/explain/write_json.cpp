@@ -63,6 +63,7 @@ class Telling {
     Json result;
     result["sample"] = number;
     result["position"] = {sample.x, sample.y};
+    if (is_moving(scene_)) result["time"] = sample.time;
     if (const auto lens = d_.lens_of(sample))
       result["lens"] = {{"at", {lens->at.x, lens->at.y}}, {"focus", json(lens->focus)}};
     result["weight"] = 1.0 / double(d_.samples.size());

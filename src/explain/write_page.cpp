@@ -32,6 +32,9 @@ class Telling {
     page_.line(fmt::format("Sample {} of {}, at {}, {}{}.", number, d_.samples.size(), short_number(sample.x),
                            short_number(sample.y),
                            number == d_.central ? ", the nearest to the pixel's centre" : ""));
+    if (is_moving(scene_))
+      page_.line(
+          fmt::format("It is taken at {} of the time that the shutter is open.", short_number(sample.time)));
     if (const auto lens = d_.lens_of(sample))
       page_.line(fmt::format("It goes through the lens at ({}, {}) from its centre, and is in focus at {}.",
                              short_number(lens->at.x), short_number(lens->at.y), text_of(lens->focus)));
@@ -69,9 +72,10 @@ class Telling {
 
   void tell_fog(const SeenFog& fog) {
     const Fog& scene = scene_.fog;
-    page_.line(fmt::format("goes through fog{}: exp(-{} t) is left of a colour",
-                           fog.way < 1e300 ? fmt::format(" for t = {}", short_number(fog.way)) : " without end",
-                           short_number(scene.density)));
+    page_.line(
+        fmt::format("goes through fog{}: exp(-{} t) is left of a colour",
+                    fog.way < 1e300 ? fmt::format(" for t = {}", short_number(fog.way)) : " without end",
+                    short_number(scene.density)));
     page_.equation("share", {written(grey(fog.share), page_.notation())}, "left of what the ray brings");
     equation_of_colors("fog", {fog.brings}, "the rest of the fog's " + short_color(scene.color));
   }
@@ -196,8 +200,7 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
-    if (const std::string how = how_painted(material); !how.empty())
-      page_.line(how);
+    if (const std::string how = how_painted(material); !how.empty()) page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
     equation("V", text_of(ray.hit.V));
@@ -205,8 +208,7 @@ class Telling {
     const ModelInfo& model = info(d_.model_of(ray));
     page_.line(fmt::format(
         "model {}: Ka Ia{} + sum over the lights of {}", model.name,
-        ambient_attenuation_of(d_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
-                                                                                                  : " / R",
+        ambient_attenuation_of(d_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? "" : " / R",
         model.equation));
   }
 

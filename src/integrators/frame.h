@@ -202,6 +202,8 @@ struct Frame {
   int width, height;            ///< Of the picture, in pixels.
   const Vec2<double>* pattern;  ///< Where a pixel's `samples` lie, from its upper left corner.
   int samples;
+  const int* order =
+      nullptr;  ///< Null: they are taken as they come. Otherwise in this order (film/shutter.h).
   const AnyLight* lights;
   int light_count;
   bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
@@ -229,8 +231,8 @@ struct Pixel {
   std::int32_t x, y;
 };
 
-/// Some pixels of the film, and which of their samples to take: the pattern's from `first_sample` up to
-/// `end_sample`, that one not included.
+/// Some pixels of the film, and which of their samples to take: in the frame's order those from
+/// `first_sample` up to `end_sample`, that one not included.
 struct PixelTask {
   const Pixel* pixels;
   std::uint32_t count;

@@ -12,8 +12,8 @@ namespace lambent {
 CameraRecord camera_record(const Camera& camera) {
   const Vec3<double> forward = normalize(camera.target - camera.eye);
   const Vec3<double> right = normalize(cross(forward, camera.up));
-  CameraRecord record{camera.eye, forward, right, cross(right, forward), 0, 0,
-                      camera.aperture / 2, focus_distance(camera)};
+  CameraRecord record{
+      camera.eye, forward, right, cross(right, forward), 0, 0, camera.aperture / 2, focus_distance(camera)};
   if (camera.projection == Projection::orthographic) {
     record.spread_of_origins = camera.height / 2;
   } else {
@@ -110,28 +110,47 @@ TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
   return samples < 2 * primitives ? TreeQuality::quick : TreeQuality::thorough;
 }
 
-std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
+namespace {
+
+/// Where the samples of each pixel lie.
+std::vector<Vec2<double>> pattern_of(const Scene& scene, bool in_slices) {
+  const ImageSettings& image = scene.image;
+  if (image.pattern == Pattern::corners) return {{0, 0}};
+  if (is_progressive(scene)) {
+    int most = std::max(scene.path.max_samples, image.samples);
+    if (in_slices) most -= most % std::min(image.samples, image.shutter_slices);  // as many for each
+    return progressive_pattern(most, image.samples, image.filter);
+  }
+  if (image.adaptive) return progressive_pattern(image.adaptive->max, image.adaptive->start, image.filter);
+  return in_slices ? progressive_pattern(image.samples, image.samples, image.filter)
+                   : sample_pattern(image.samples, image.filter);
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   auto prepared = std::make_unique<PreparedFrame>();
   Frame& frame = prepared->frame;
 
   frame.camera = camera_record(scene.camera);
   const bool is_adaptive = scene.image.is_adaptive();
-  const bool corners = scene.image.pattern == Pattern::corners;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
-  prepared->pattern =
-      corners                 ? std::vector<Vec2<double>>{{0, 0}}
-      : is_progressive(scene) ? progressive_pattern(std::max(scene.path.max_samples, scene.image.samples),
-                                                    scene.image.samples, scene.image.filter)
-      : scene.image.adaptive
-          ? progressive_pattern(scene.image.adaptive->max, scene.image.adaptive->start, scene.image.filter)
-          : sample_pattern(scene.image.samples, scene.image.filter);
+  // A view shows what is there in the middle of the shutter's time.
+  const bool in_slices = is_moving(scene) && scene.integrator != Integrator::view;
+  prepared->pattern = pattern_of(scene, in_slices);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
+  if (in_slices) {
+    prepared->shutter =
+        open_shutter(frame.samples, std::min(scene.image.samples, scene.image.shutter_slices));
+    frame.order = prepared->shutter.order.data();
+  }
 
-  prepared->tree_quality =
-      suitable_quality(primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples);
-  prepared->world = build_world(scene, prepared->tree_quality);
+  const std::uint64_t slices = std::max<std::size_t>(1, prepared->shutter.slices.size());
+  prepared->tree_quality = suitable_quality(
+      primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples / slices);
+  prepared->world = build_world(scene, prepared->tree_quality, time);
   const bool is_white = scene.integrator == Integrator::ambient_occlusion;
   if (is_white) block_all_but_cut_outs(scene, prepared->world);
   frame.world = prepared->world.view();
@@ -201,6 +220,27 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     if (scene.illumination.attenuation) frame.path_attenuation = *scene.illumination.attenuation;
   }
   return prepared;
+}
+
+Exposure::Exposure(const Scene& scene) : scene_(scene), prepared_(prepare(scene)) {
+  slices_ = prepared_->shutter.slices;
+  if (slices_.empty()) slices_.push_back({0, prepared_->frame.samples, 0.5});
+  if (slices_.size() > 1) prepared_.reset();
+}
+
+const PreparedFrame& Exposure::at(int slice) {
+  if (!prepared_ || slice != slice_) {
+    prepared_.reset();  // before the next takes its memory
+    prepared_ = prepare(scene_, slices_[std::size_t(slice)].time);
+    slice_ = slice;
+  }
+  return *prepared_;
+}
+
+std::vector<Pass> Exposure::passes() const {
+  std::vector<Pass> passes;
+  for (const Slice& slice : slices_) passes.push_back({int(passes.size()), slice.first, slice.end});
+  return passes;
 }
 
 }  // namespace lambent

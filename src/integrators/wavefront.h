@@ -49,6 +49,9 @@ struct Wavefront {
   int samples_per_pixel() const { return task.end_sample - task.first_sample; }
   std::uint64_t sample_count() const { return std::uint64_t(task.count) * samples_per_pixel(); }
 
+  /// Which of the pattern's samples has a place in the frame's order.
+  int sample_at(int place) const { return frame.order ? frame.order[place] : place; }
+
   void make_room() const {
     if (scratch.samples.capacity > 0) return;
     Scratch::grow(scratch.samples, batch_size);
@@ -90,9 +93,10 @@ struct Wavefront {
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int sample = task.first_sample + int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
-      if (has_lens) choose_lens_point(i, task.pixels[pixel], sample);
-      rays.ox[i] = task.pixels[pixel].x + frame.pattern[sample].x;
-      rays.oy[i] = task.pixels[pixel].y + frame.pattern[sample].y;
+      const int which = sample_at(sample);
+      if (has_lens) choose_lens_point(i, task.pixels[pixel], which);
+      rays.ox[i] = task.pixels[pixel].x + frame.pattern[which].x;
+      rays.oy[i] = task.pixels[pixel].y + frame.pattern[which].y;
       rays.sample[i] = i;
       if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
     }
@@ -104,7 +108,8 @@ struct Wavefront {
       const F x = (F::load(&rays.ox[i]) - half_width) * per_unit,
               y = (half_height - F::load(&rays.oy[i])) * per_unit;
       const Vec3<F> aside = x * right + y * up;
-      Vec3<F> o = eye + F(camera.spread_of_origins) * aside, d = forward + F(camera.spread_of_directions) * aside;
+      Vec3<F> o = eye + F(camera.spread_of_origins) * aside,
+              d = forward + F(camera.spread_of_directions) * aside;
       if (has_lens) {
         const Vec3<F> off_centre = F::load(&rays.dx[i]) * right + F::load(&rays.dy[i]) * up;
         o = o + off_centre;
@@ -198,7 +203,8 @@ struct Wavefront {
       const double share = exp2(-log2_e * fog.density * way);
       const Rgb brings = (1 - share) * fog.color;
       add(i, brings);
-      if (task.layer_sums) add_to_layer(i, frame.layers.first_of(rays.way[i]) + frame.layers.fog_layer(), brings);
+      if (task.layer_sums)
+        add_to_layer(i, frame.layers.first_of(rays.way[i]) + frame.layers.fog_layer(), brings);
       Rgb weight;
       for (int c = 0; c < color_channels; ++c) weight[c] = rays.weight[c][i] *= share;
       if (frame.witness)

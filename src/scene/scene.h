@@ -100,12 +100,14 @@ struct ImageSettings {
   int width = 1280, height = 720;
   int samples = 1;
   std::optional<AdaptiveSamples> adaptive;  ///< In place of `samples`.
+  /// Where something moves: at how many moments, at most, it is looked at while the shutter is open.
+  int shutter_slices = 16;
   bool is_adaptive() const { return adaptive && pattern != Pattern::corners; }
   Pattern pattern = Pattern::stratified;
   Filter filter = Filter::box;
   Encoding encoding = Encoding::srgb;
 };
-inline constexpr Range sample_range{1, 65536};
+inline constexpr Range sample_range{1, 65536}, slice_range{1, 4096};
 
 /// What is kept of a picture beside its colours.
 struct FilmSettings {
@@ -141,8 +143,8 @@ inline constexpr Parameter<AmbientOcclusion> parameters_of<AmbientOcclusion>[] =
      "What stands farther away hides nothing."},
 };
 
-/// What lies between the eye and all that it sees, thicker with every step: of a colour there remains the share
-/// exp(-density t) after the way t, and the rest is the fog's.
+/// What lies between the eye and all that it sees, thicker with every step: of a colour there remains the
+/// share exp(-density t) after the way t, and the rest is the fog's.
 struct Fog {
   Rgb color{0.5, 0.5, 0.5};
   double density = 0;
@@ -437,14 +439,26 @@ struct Shape {
 };
 std::size_t primitive_count(const Shape& shape);
 
+/// A step of an object's motion in the world: a turn about an axis through `center`, or a way.
+struct MotionStep {
+  Vec3<double> axis{0, 1, 0}, center{0, 0, 0};  ///< The axis is of unit length.
+  double degrees = 0;
+  Vec3<double> translate{0, 0, 0};
+};
+
 /// A shape placed in the world.
 struct Object {
   std::string name;
   Place place;
   std::uint32_t shape = 0;               ///< Index into Scene::shapes.
   std::vector<std::uint32_t> materials;  ///< Indices into Scene::materials; one at least.
-  Transform world_from_object;
+  Transform world_from_object;           ///< When the shutter opens.
+  /// What happens to it until the shutter closes: each step at its own constant speed, all at once, applied
+  /// in this order. Empty: it stands still.
+  std::vector<MotionStep> motion;
 };
+/// Where it is at a time of the shutter's, 0 when that opens, 1 when it closes.
+Transform placed_at(const Object& object, double time);
 
 /// A light of the scene: which it is, and what people call it.
 struct Light {
@@ -473,8 +487,8 @@ struct Scene {
   ViewSettings view;
   PathSettings path;
   AmbientOcclusion ambient_occlusion;  ///< Of the integrator; that of the ambient term is in `illumination`.
-  Fog fog;                  ///< With the density 0: none.
-  Rgb background{0, 0, 0};  ///< What rays see that meet nothing; with an image a factor on it.
+  Fog fog;                             ///< With the density 0: none.
+  Rgb background{0, 0, 0};             ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;
   double background_turn = 0;    ///< Degrees about the vertical, counter-clockwise from above.
@@ -490,6 +504,9 @@ struct Scene {
   std::vector<std::string> model_cameras;  ///< The names of the cameras that it brings.
   std::optional<Axis> axis;                ///< The model's vertical. Unset: the camera's, through its target.
 };
+
+/// Whether something moves while the shutter is open.
+bool is_moving(const Scene& scene);
 
 /// Whether samples are taken until the noise is low enough.
 inline bool is_progressive(const Scene& scene) {

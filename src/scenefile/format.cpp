@@ -262,6 +262,10 @@ Format make_format() {
                              "{start, max, error}}: as many as each pixel needs."),
                        sample_range, "")} +
           std::vector{
+              with(field("shutter_slices", FieldType::integer, fmt::to_string(image.shutter_slices),
+                         "Where objects move: at how many moments, at most, they are seen while the shutter "
+                         "is open. No more than there are samples."),
+                   slice_range, ""),
               choice("filter", names_of<Filter>(), text_of(image.filter),
                      "How samples make a pixel: `box` is their mean, `tent` also weighs in those of the "
                      "neighbours."),
@@ -339,18 +343,25 @@ Format make_format() {
                      "own, everything else is plain grey."),
                field("transform", FieldType::transform, "",
                      "Steps that move the object, applied in the order written; a single step may stand "
-                     "without the list.")});
-  f.rotate = section("rotate", "a turn about an axis through the origin",
+                     "without the list."),
+               field("motion", FieldType::motion, "",
+                     "What it does while the shutter is open, from where `transform` has placed it: steps, "
+                     "each at a constant speed.")});
+  f.rotate = section("rotate", "a turn about an axis",
                      std::vector{required("axis", FieldType::axis, "`x`, `y`, `z`, or a direction.")} +
                          fields_of<RotateSettings>());
   f.transform = section(
       "transform", "one step",
       {field("scale", FieldType::factors, "", "A factor, or one for each axis; not 0. Negative ones mirror."),
-       field("rotate", FieldType::section, "",
-             "A right-handed turn about an axis through the origin: {axis, degrees}."),
+       field("rotate", FieldType::section, "", "A right-handed turn about an axis: {axis, degrees, center}."),
        with(field("translate", FieldType::point, "", "How far to move along x, y and z."), {}, "scene units"),
        field("matrix", FieldType::matrix, "",
              "Three rows of four numbers: the linear part and, last in each row, the translation.")});
+  f.motion = section("motion", "one step of a motion",
+                     {field("rotate", FieldType::section, "",
+                            "A turn about an axis, at a constant speed: {axis, degrees, center}."),
+                      with(field("translate", FieldType::point, "", "A straight way along x, y and z."), {},
+                           "scene units")});
   f.top = section(
       "scene", "a scene file",
       {with(required("lambent", FieldType::integer, "The version of the format."), {1, 1}, ""),
@@ -446,6 +457,7 @@ std::string type_name(FieldType type) {
     case FieldType::map:
       return "file name or mapping";
     case FieldType::transform:
+    case FieldType::motion:
       return "step or list of steps";
     case FieldType::section:
       return "mapping";

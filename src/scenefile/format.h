@@ -38,6 +38,7 @@ enum class FieldType {
   background,   // a color or a mapping
   map,          // a file's name or a mapping
   transform,    // a step or a list of steps
+  motion,       // likewise
   section,      // a mapping with fields of its own
   sections,     // a list of such mappings
 };
@@ -69,6 +70,7 @@ struct Format {
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.
   Section transform;      ///< The steps.
+  Section motion;         ///< Those of a motion.
   Section rotate;
 };
 const Format& format();

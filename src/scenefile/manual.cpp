@@ -108,7 +108,7 @@ at once, with line and column. For completion and checks while you type, point y
 
 Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [fog](#fog), [image](#image), [film](#film), [illumination](#illumination),
 [models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
-[transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
+[transforms](#transforms), [motion](#motion), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
 ## Conventions
 
@@ -247,6 +247,19 @@ cylinder or cone face outward.
 
 )";
 
+constexpr const char* motion_text =
+    R"(An object with a `motion` is blurred by what it does while the shutter is open. It begins where `transform` has placed it, and ends when all steps
+have been done to that, in the world and in the order written; each step goes on all the time, at a constant speed. A wheel of radius 1 that rolls a quarter of a turn:
+
+    motion: [{rotate: {axis: z, degrees: -90, center: [0, 1, 0]}}, {translate: [1.5708, 0, 0]}]
+
+The samples of each pixel are dealt over the time: over `image.shutter_slices` moments, or as many as there are samples. For each moment the scene is laid out anew and
+its samples are taken, so many slices cost the building of as many trees, and a still scene costs nothing. What moves by more than a few pixels from one moment to
+the next shows in steps: give more samples and slices. The order of the samples is the same in all pixels, so there is no noise. Views show the middle of the time; adaptive
+samples and `pattern: corners` do not go together with motion.
+
+)";
+
 constexpr const char* command_line_text = R"(## Values from the command line
 
 `lambent render scene.yaml --set path.to.key=value` puts a value into the scene before it is read, as if it stood in the file:
@@ -359,6 +372,7 @@ std::string scene_manual() {
       "{translate: [1, 0, 0]}]` makes "
       "twice as large first and moves then.\n\n" +
       table(f.transform.fields) + "A `rotate`:\n\n" + table(f.rotate.fields);
+  text += "## Motion\n\n" + std::string(motion_text) + table(f.motion.fields);
   text += command_line_text;
   text += model_files_text;
   return text;

@@ -108,6 +108,8 @@ void read_image(Reader& reader, const Value& value, ImageSettings& image) {
       image.pattern = Pattern::stratified;
   }
   if (const Value* encoding = values->find("encoding")) reader.choice(*encoding, image.encoding);
+  if (const Value* slices = values->find("shutter_slices"))
+    reader.integer(*slices, slice_range, image.shutter_slices);
   const Value* size = values->find("size");
   if (size == nullptr) return;
   const auto sides = reader.list(*size, "side");
@@ -274,6 +276,29 @@ void settle_samples(Reader& reader, const Value* given, Integrator integrator, I
   image.pattern = Pattern::stratified;
 }
 
+/// Where something moves, the samples of each pixel are dealt over the time that the shutter is open.
+void check_motion(Reader& reader, const Value* given, Scene& scene) {
+  if (!is_moving(scene) || scene.integrator == Integrator::view) return;
+  const auto find = [&](const char* key) { return given != nullptr ? value_of(*given->node, key) : nullptr; };
+  const char* remedy = "give a number of them for all pixels: samples: 64";
+  if (const Node* samples = find("samples"); scene.image.is_adaptive() && samples != nullptr)
+    reader.error(*samples, "adaptive samples do not see what moves", remedy);
+  else if (const Node* pattern = find("pattern");
+           scene.image.pattern == Pattern::corners && pattern != nullptr)
+    reader.error(*pattern, "'pattern: corners' takes one sample of each corner, which sees nothing move",
+                 "leave the pattern out, and give samples: 64");
+  else if (scene.image.samples == 1 || scene.image.shutter_slices == 1) {
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.place.file = reader.document().sources[0].name;
+    warning.message = scene.image.samples == 1
+                          ? "nothing is blurred by its motion: each pixel has one sample"
+                          : "nothing is blurred by its motion: the shutter has one slice";
+    warning.hint = scene.image.samples == 1 ? "image: {samples: 64}, or --samples 64" : "";
+    scene.warnings.push_back(std::move(warning));
+  }
+}
+
 /// A name that may be given once only; the default where none is given.
 std::string unique_name(Reader& reader, const Values& values, std::string default_name,
                         std::map<std::string, int>& taken) {
@@ -436,6 +461,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
       }
     if (scene.integrator == Integrator::path || scene.integrator == Integrator::ambient_occlusion)
       settle_samples(reader, top->find("image"), scene.integrator, scene.image);
+    check_motion(reader, top->find("image"), scene);
     if (scene.integrator == Integrator::view && scene.film.layers)
       reader.error(*value_of(*top->find("film")->node, "layers"), "a view has no layers",
                    "layers are what the colours of 'whitted' are made of; leave out one of the two");
@@ -477,9 +503,18 @@ Model import_scene(const std::string& path, const ImportOptions& import) {
   model.textures = std::move(scene.textures);
   model.shapes = std::move(scene.shapes);
   model.warnings = std::move(scene.warnings);
-  for (Object& object : scene.objects)
+  for (Object& object : scene.objects) {
+    if (!object.motion.empty()) {
+      Diagnostic warning;
+      warning.severity = Severity::warning;
+      warning.place = object.place;
+      warning.message = "'" + object.name + "' stands still where another scene shows it";
+      warning.hint = "give the object that shows this scene a 'motion'";
+      model.warnings.push_back(std::move(warning));
+    }
     model.objects.push_back(
         {std::move(object.name), object.shape, object.world_from_object, std::move(object.materials)});
+  }
   for (Material& material : scene.materials) {
     material.model = model_of(scene, material);  // as the file means it
     model.materials.push_back(std::move(material));

@@ -68,7 +68,8 @@ std::string camera_text(const Camera& camera) {
                   flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
                   plain(camera.eye), plain(camera.target));
   if (camera.aperture > 0)
-    text += fmt::format(", aperture {}, in focus {} away", plain(camera.aperture), plain(focus_distance(camera)));
+    text +=
+        fmt::format(", aperture {}, in focus {} away", plain(camera.aperture), plain(focus_distance(camera)));
   return text;
 }
 
@@ -154,6 +155,7 @@ SceneSummary summarize(const ScenePtr& pointer) {
     text += object.materials.size() == 1 ? "material " + scene.materials[object.materials[0]].name
                                          : std::to_string(object.materials.size()) + " materials";
     if (!is_identity(object.world_from_object)) text += ", transformed";
+    if (!object.motion.empty()) text += ", moving";
     summary.shown += primitive_count(shape);
     summary.objects.push_back(
         {object.name, kind_of(shape), object.place, primitive_count(shape), std::move(text)});

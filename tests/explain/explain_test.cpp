@@ -43,12 +43,12 @@ TEST(Explain, TheTermsSumToTheRenderedPixelBitForBit) {
     const std::string yaml = test::random_scene(seed, 24, 18, std::to_string(1 + seed % 5));
     const ScenePtr scene = parse_scene(yaml);
     const Image image = render(scene).image;
-    const auto prepared = prepare(*scene);
+    Exposure exposure(*scene);
     std::mt19937 random(seed);
     for (int i = 0; i < 100; ++i, ++pixels) {
       const int x = std::uniform_int_distribution<int>(0, 23)(random),
                 y = std::uniform_int_distribution<int>(0, 17)(random);
-      const Derivation d = derive(scene, *prepared, choose_kernel(""), x, y, prepared->frame.samples);
+      const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
       ASSERT_NO_FATAL_FAILURE(expect_same_bits(
           image.pixel(x, y), {d.pixel, d.pixel + 3},
           "seed " + std::to_string(seed) + ", pixel " + std::to_string(x) + "," + std::to_string(y)));
@@ -66,10 +66,10 @@ TEST(Explain, AFormulaHasTheBitsOfTheRenderersTerm) {
   std::size_t terms = 0;
   for (unsigned seed = 200; seed < 230; ++seed) {
     const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "1"));
-    const auto prepared = prepare(*scene);
+    Exposure exposure(*scene);
     for (int y = 0; y < 12; ++y)
       for (int x = 0; x < 16; ++x) {
-        const Derivation d = derive(scene, *prepared, choose_kernel(""), x, y, prepared->frame.samples);
+        const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
         for (const DerivedRay& ray : d.rays) {
           if (!ray.hits) continue;
           EXPECT_EQ(ray.ambient, ambient_formula(d, ray).value);

@@ -44,22 +44,24 @@ TEST(AmbientOcclusionIntegrator, UnderADisc) {
 }
 
 TEST(AmbientOcclusionIntegrator, BesideAWall) {
-  // An endless wall of height h, x away. Of an endless strip only the angles across it count: what lies between
-  // a and b from the normal has the share (sin b - sin a) / 2. The wall reaches from the horizon, sin b = 1, up
-  // to sin a = x / sqrt(x^2 + h^2).
+  // An endless wall of height h, x away. Of an endless strip only the angles across it count: what lies
+  // between a and b from the normal has the share (sin b - sin a) / 2. The wall reaches from the horizon, sin
+  // b = 1, up to sin a = x / sqrt(x^2 + h^2).
   for (const double x : {0.01, 0.5, 1.0, 3.0}) {
     const double h = 1;
-    const std::string wall = fmt::format(
-        "  - {{plane: {{point: [0, {}, 0], normal: [1, 0, 0], size: [2e4, {}]}}}}\n", h / 2, h);
+    const std::string wall =
+        fmt::format("  - {{plane: {{point: [0, {}, 0], normal: [1, 0, 0], size: [2e4, {}]}}}}\n", h / 2, h);
     EXPECT_NEAR((1 + x / std::sqrt(x * x + h * h)) / 2, openness(seen_from_beside(x, wall)), 0.005) << x;
   }
   // An endlessly high one, a corner of two planes: one half, wherever one stands.
-  EXPECT_NEAR(0.5, openness(seen_from_beside(0.3, "  - {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}\n")), 0.005);
+  EXPECT_NEAR(0.5, openness(seen_from_beside(0.3, "  - {plane: {point: [0, 0, 0], normal: [1, 0, 0]}}\n")),
+              0.005);
 }
 
 TEST(AmbientOcclusionIntegrator, ShapesAloneCount) {
   const std::string shapes =
-      "  - {sphere: {center: [0.4, 0.5, -0.5], radius: 0.5}MATERIAL}\n  - {box: {min: [-1, 0, -1], max: [-0.2, "
+      "  - {sphere: {center: [0.4, 0.5, -0.5], radius: 0.5}MATERIAL}\n  - {box: {min: [-1, 0, -1], max: "
+      "[-0.2, "
       "0.7, -0.3]}MATERIAL}\n";
   const auto with_material = [&](const std::string& material) {
     std::string text = shapes;
@@ -88,10 +90,10 @@ TEST(AmbientOcclusionIntegrator, ShapesAloneCount) {
 }
 
 TEST(AmbientOcclusionIntegrator, HasLayersAndExplains) {
-  const ScenePtr scene = parse_scene(
-      seen_from_beside(0, "  - {disc: {center: [0, 1, 0], normal: [0, 1, 0], radius: 1}}\n") +
-          "lights: [{name: key, point: {position: [0, 3, 3]}}]\n",
-      "scene", {{{"film.layers", "true"}, {"image.size", "[4, 4]"}, {"image.samples", "3"}}});
+  const ScenePtr scene =
+      parse_scene(seen_from_beside(0, "  - {disc: {center: [0, 1, 0], normal: [0, 1, 0], radius: 1}}\n") +
+                      "lights: [{name: key, point: {position: [0, 3, 3]}}]\n",
+                  "scene", {{{"film.layers", "true"}, {"image.size", "[4, 4]"}, {"image.samples", "3"}}});
   const Image image = render(scene).image;
   for (const std::string& channel : image.channels) EXPECT_EQ(std::string::npos, channel.find("light"));
   for (int y = 0; y < 4; ++y) EXPECT_TRUE(adds_up(explain(scene, 1, y)));

@@ -23,7 +23,8 @@ std::string glowing(double r, double g, double b, const std::string& more = "") 
 }
 void expect_color(const Rgb& expected, const std::string& yaml) {
   const Image image = render(parse_scene(yaml)).image;
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(expected[c], image.pixel(0, 0)[c], 1e-6 * (1 + expected[c])) << yaml;
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(expected[c], image.pixel(0, 0)[c], 1e-6 * (1 + expected[c])) << yaml;
 }
 
 TEST(Fog, ByTheLengthOfTheRay) {
@@ -33,9 +34,10 @@ TEST(Fog, ByTheLengthOfTheRay) {
         const double left = std::exp(-density * std::max(t - start, 0.0));
         expect_color(
             {left * 0.8 + (1 - left) * 0.1, left * 0.4 + (1 - left) * 0.2, left * 0.2 + (1 - left) * 0.7},
-            head + fmt::format("fog: {{color: [0.1, 0.2, 0.7], density: {}, start: {}}}\nobjects: [{{plane: {{point: "
-                               "[0, 0, {}], normal: [0, 0, 1]}}, {}}}]\n",
-                               density, start, -t, glowing(0.8, 0.4, 0.2)));
+            head + fmt::format(
+                       "fog: {{color: [0.1, 0.2, 0.7], density: {}, start: {}}}\nobjects: [{{plane: {{point: "
+                       "[0, 0, {}], normal: [0, 0, 1]}}, {}}}]\n",
+                       density, start, -t, glowing(0.8, 0.4, 0.2)));
       }
 }
 
@@ -45,9 +47,9 @@ TEST(Fog, WhatMeetsNothingIsWhollyFog) {
 }
 
 TEST(Fog, OnEveryWayOfMirroredAndRefractedRays) {
-  // A mirror 3 away that reflects half, and 5 behind the eye a wall of 0.8: the mirror shows it through a way of
-  // 8, which is in the fog from the first 2 on; the first of these belong to the eye's ray. Behind the mirror,
-  // which lets a quarter through, stands a wall of 0.3 at 4.
+  // A mirror 3 away that reflects half, and 5 behind the eye a wall of 0.8: the mirror shows it through a way
+  // of 8, which is in the fog from the first 2 on; the first of these belong to the eye's ray. Behind the
+  // mirror, which lets a quarter through, stands a wall of 0.3 at 4.
   const double density = 0.3, fog = 0.6, start = 2;
   const auto left = [&](double from, double to) {
     return std::exp(-density * (std::max(to - start, 0.0) - std::max(from - start, 0.0)));
@@ -61,9 +63,8 @@ TEST(Fog, OnEveryWayOfMirroredAndRefractedRays) {
                  "  - {{plane: {{point: [0, 0, -3], normal: [0, 0, 1]}}, {}}}\n"
                  "  - {{plane: {{point: [0, 0, 5], normal: [0, 0, 1]}}, {}}}\n"
                  "  - {{plane: {{point: [0, 0, -4], normal: [0, 0, 1]}}, {}}}\n",
-                 fog, density, start,
-                 glowing(0.05, 0.05, 0.05, ", reflect: 0.5, transmit: 0.25, ior: 1"), glowing(0.8, 0.8, 0.8),
-                 glowing(0.3, 0.3, 0.3));
+                 fog, density, start, glowing(0.05, 0.05, 0.05, ", reflect: 0.5, transmit: 0.25, ior: 1"),
+                 glowing(0.8, 0.8, 0.8), glowing(0.3, 0.3, 0.3));
   expect_color(grey(expected), scene);
 
   // Each way has its own fog among the layers, and they add up.
@@ -90,7 +91,8 @@ TEST(Fog, OnEveryWayOfMirroredAndRefractedRays) {
 }
 
 TEST(Fog, WithoutItNothingChanges) {
-  const std::string scene = "objects: [{sphere: {center: [0, 0, -4], radius: 1}, " + glowing(0.5, 0.4, 0.3) + "}]\n";
+  const std::string scene =
+      "objects: [{sphere: {center: [0, 0, -4], radius: 1}, " + glowing(0.5, 0.4, 0.3) + "}]\n";
   const Image without = render(parse_scene(head + scene)).image,
               thin = render(parse_scene(head + "fog: {density: 0}\n" + scene)).image;
   EXPECT_EQ(0, std::memcmp(without.data.data(), thin.data.data(), 3 * sizeof(float)));

@@ -1,5 +1,5 @@
-// Depth of field against the closed form of a thin lens: of diameter A, in focus at f, it shows a point at the
-// depth d as a disc that is as large as one of diameter c = A |d - f| / f at that depth.
+// Depth of field against the closed form of a thin lens: of diameter A, in focus at f, it shows a point at
+// the depth d as a disc that is as large as one of diameter c = A |d - f| / f at that depth.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -52,16 +52,16 @@ TEST(Lens, BlursAPointToACircleOfConfusion) {
   const double A = 0.6, s = 0.04, pixel = 1.0 / n;
   for (const bool flat : {false, true})
     for (const auto& [d, f] : {std::pair{4.0, 2.5}, {3.0, 5.0}, {5.0, 3.0}}) {
-      const Image image = render(parse_scene(camera(flat, d, fmt::format(", aperture: {}, focus_distance: {}", A, f),
-                                                    64) +
-                                             glowing(fmt::format("sphere: {{center: [0, 0, {}], radius: {}}}",
-                                                                 -d, s))))
-                              .image;
+      const Image image =
+          render(parse_scene(camera(flat, d, fmt::format(", aperture: {}, focus_distance: {}", A, f), 64) +
+                             glowing(fmt::format("sphere: {{center: [0, 0, {}], radius: {}}}", -d, s))))
+              .image;
       const double c = A * std::fabs(d - f) / f;
       // The mean square distance from the middle of an even disc of diameter c is c^2 / 8; that of the little
       // sphere adds to it, and that of a pixel, a square: 1/6 of its side's.
       const Spread seen = spread_of(image);
-      EXPECT_NEAR(c * c / 8 + s * s / 2 + pixel * pixel / 6, seen.mean_square, 0.04 * c * c / 8) << d << " " << f;
+      EXPECT_NEAR(c * c / 8 + s * s / 2 + pixel * pixel / 6, seen.mean_square, 0.04 * c * c / 8)
+          << d << " " << f;
       EXPECT_LE(seen.farthest, c / 2 + 1.1 * s + pixel);
       EXPECT_GE(seen.farthest, c / 2 - pixel);
     }
@@ -92,9 +92,8 @@ TEST(Lens, OfNoDiameterIsAPinhole) {
 
 TEST(Lens, ItsPointsAreSpreadOverItAndDifferFromPixelToPixel) {
   using Json = nlohmann::json;
-  const ScenePtr scene =
-      parse_scene(camera(false, 4, ", aperture: 2, focus_distance: 8", 64) +
-                  glowing("sphere: {center: [0, 0, -4], radius: 0.3}"));
+  const ScenePtr scene = parse_scene(camera(false, 4, ", aperture: 2, focus_distance: 8", 64) +
+                                     glowing("sphere: {center: [0, 0, -4], radius: 0.3}"));
   const auto samples = [&](int x, int y) {
     const DerivationPtr derivation = explain(scene, x, y);
     EXPECT_TRUE(adds_up(derivation));
@@ -122,10 +121,9 @@ TEST(Lens, ItsPointsAreSpreadOverItAndDifferFromPixelToPixel) {
 }
 
 TEST(Lens, GoesWithAdaptiveSamples) {
-  const ScenePtr scene = parse_scene(
-      camera(false, 4, ", aperture: 0.5, focus_distance: 3", 4) +
-          glowing("sphere: {center: [0, 0, -4], radius: 0.2}"),
-      "scene", {{{"image.samples", "{adaptive: {start: 4, max: 64}}"}}});
+  const ScenePtr scene = parse_scene(camera(false, 4, ", aperture: 0.5, focus_distance: 3", 4) +
+                                         glowing("sphere: {center: [0, 0, -4], radius: 0.2}"),
+                                     "scene", {{{"image.samples", "{adaptive: {start: 4, max: 64}}"}}});
   const Image image = render(scene).image;
   for (const auto& [px, py] : {std::pair{24, 24}, {30, 24}, {16, 20}}) {
     const DerivationPtr derivation = explain(scene, px, py);

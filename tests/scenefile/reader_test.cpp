@@ -239,7 +239,8 @@ TEST(ReaderMessages, Values) {
 }
 
 TEST(ReaderMessages, Structure) {
-  EXPECT_EQ(only(head + "integrator: {}\n"), "'integrator' names none | it is one of: whitted, path, ambient_occlusion, view");
+  EXPECT_EQ(only(head + "integrator: {}\n"),
+            "'integrator' names none | it is one of: whitted, path, ambient_occlusion, view");
   EXPECT_EQ(only(head + "lights: {}\n"), "'lights' must be a list, not a mapping | ");
   EXPECT_EQ(only(head + "lights: [{name: a}]\n"),
             "this light has no kind | it is one of: " + join(names_of(format().lights)));
