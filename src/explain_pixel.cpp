@@ -11,19 +11,19 @@
 namespace lambent {
 namespace {
 
-/// How many samples a pixel gets. With adaptive samples that depends on its neighbours, and theirs, and with
+/// Which samples a pixel gets. With adaptive samples that depends on its neighbours, and theirs, and with
 /// samples until the noise is low on all of them; so the picture is taken.
-int samples_of_pixel(const Scene& scene, const PreparedFrame& prepared, const Kernel& kernel, int threads,
-                     int x, int y) {
-  if (!scene.image.is_adaptive() && !is_progressive(scene)) return prepared.frame.samples;
+std::vector<Pass> passes_of_pixel(const Scene& scene, Exposure& exposure, const Kernel& kernel, int threads,
+                                  int x, int y) {
+  if (!scene.image.is_adaptive() && !is_progressive(scene)) return exposure.passes();
   Film film(scene.image);
   TileOptions options;
   options.threads = thread_count(threads);
   if (is_progressive(scene))
-    return render_until(prepared.frame, kernel, scene.path, scene.image, film, options).samples;
+    return render_until(exposure, kernel, scene.path, scene.image, film, options).passes;
   std::vector<int> samples;
-  render_adaptively(prepared.frame, kernel, scene.image, film, options, &samples);
-  return samples[std::size_t(y) * std::size_t(film.width) + std::size_t(x)];
+  render_adaptively(exposure.at(0).frame, kernel, scene.image, film, options, &samples);
+  return {{0, 0, samples[std::size_t(y) * std::size_t(film.width) + std::size_t(x)]}};
 }
 
 }  // namespace
@@ -39,9 +39,9 @@ DerivationPtr explain(const ScenePtr& scene, int x, int y, const ExplainOptions&
     throw InputError(diagnostic);
   }
   const Kernel& kernel = choose_kernel(options.isa);
-  const auto prepared = prepare(*scene);
-  const int samples = samples_of_pixel(*scene, *prepared, kernel, options.threads, x, y);
-  return std::make_shared<Derivation>(derive(scene, *prepared, kernel, x, y, samples));
+  Exposure exposure(*scene);
+  const std::vector<Pass> passes = passes_of_pixel(*scene, exposure, kernel, options.threads, x, y);
+  return std::make_shared<Derivation>(derive(scene, exposure, kernel, x, y, passes));
 }
 
 int sample_count(const DerivationPtr& derivation) { return int(derivation->samples.size()); }

@@ -58,11 +58,12 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   Clock clock;
   RenderResult result;
   Stats& stats = result.stats;
-  const auto prepared = prepare(*scene);
-  describe(*scene, *prepared, stats);
+  Exposure exposure(*scene);
+  const Frame& frame = exposure.at(0).frame;  // of the first slice; none needs it beyond that
+  describe(*scene, exposure.at(0), stats);
   stats.seconds.build = clock.lap();
   std::optional<LayerBook> book;
-  if (scene->film.layers) book.emplace(*scene, prepared->frame.layers, prepared->frame.samples);
+  if (scene->film.layers) book.emplace(*scene, frame.layers, frame.samples);
   Film film(scene->image, book ? &*book : nullptr);
   stats.bytes.film = film.values.size() * sizeof(float);
   const double pixels = double(film.width) * film.height;
@@ -70,14 +71,14 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   ViewRun view;
   const bool is_view = scene->integrator == Integrator::view;
   if (is_view)
-    view = render_view(prepared->frame, kernel, view_record(*scene, scene->view),
-                       view_samples(scene->image, prepared->frame), film, tile_options);
-  const TileRun run = is_view                  ? view.tiles
-                      : is_progressive(*scene) ? render_until(prepared->frame, kernel, scene->path,
-                                                              scene->image, film, tile_options)
-                      : scene->image.is_adaptive()
-                          ? render_adaptively(prepared->frame, kernel, scene->image, film, tile_options)
-                          : render_tiles(prepared->frame, kernel, film, tile_options);
+    view = render_view(frame, kernel, view_record(*scene, scene->view), view_samples(scene->image, frame),
+                       film, tile_options);
+  const TileRun run =
+      is_view                  ? view.tiles
+      : is_progressive(*scene) ? render_until(exposure, kernel, scene->path, scene->image, film, tile_options)
+      : exposure.slices().size() > 1 ? render_slices(exposure, kernel, scene->image, film, tile_options)
+      : scene->image.is_adaptive()   ? render_adaptively(frame, kernel, scene->image, film, tile_options)
+                                     : render_tiles(frame, kernel, film, tile_options);
   stats.seconds.render = clock.lap();
 
   result.image = develop(std::move(film), scene->image);

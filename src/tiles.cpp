@@ -63,11 +63,12 @@ double samples_expected(const TileRun& run, const PathSettings& settings, int ma
   return std::min(double(max), std::ceil(run.samples * factor * factor));
 }
 
-/// How far the pattern's samples lie from the pixel's centre.
+/// How far a pixel's samples lie from its centre, in the frame's order.
 std::vector<double> distances_from_centre(const Frame& frame) {
   std::vector<double> result;
   for (int i = 0; i < frame.samples; ++i) {
-    const double x = frame.pattern[i].x - 0.5, y = frame.pattern[i].y - 0.5;
+    const Vec2<double>& sample = frame.pattern[frame.order ? frame.order[i] : i];
+    const double x = sample.x - 0.5, y = sample.y - 0.5;
     result.push_back(x * x + y * y);
   }
   return result;
@@ -182,10 +183,10 @@ namespace {
 /// Samples taken in several goes, and what they have brought so far.
 class Goes {
  public:
+  /// Of the frame counts what all slices have in common.
   Goes(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
        const TileOptions& options)
-      : frame_(frame),
-        kernel_(kernel),
+      : kernel_(kernel),
         film_(film),
         options_(options),
         columns_(film.layers ? std::size_t(frame.layers.count()) * color_channels : 0),
@@ -197,22 +198,21 @@ class Goes {
         list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
   }
 
-  /// The pattern's samples from `first` up to `end` of all wanted pixels. The progress goes from `from` to
-  /// `to`.
-  void go(int first, int end, double from, double to, TileRun& run) {
+  /// The frame's samples from `first` up to `end`, in its order, of all wanted pixels. The progress goes from
+  /// `from` to `to`.
+  void go(const Frame& frame, int first, int end, double from, double to, TileRun& run) {
     const std::int64_t at_a_time = film_.layers ? std::int64_t(pixels_with_hits(end - first))
                                                 : std::int64_t(options_.tile_size) * options_.tile_size;
     const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
     Crew(options_, run).share(tasks, from, to, [&](std::int64_t i, Worker& worker) {
       const std::int64_t begin = i * at_a_time;
-      take(&wanted[std::size_t(begin)],
+      take(frame, &wanted[std::size_t(begin)],
            std::size_t(std::min<std::int64_t>(at_a_time, std::int64_t(wanted.size()) - begin)), first, end,
            worker);
     });
   }
 
  private:
-  const Frame& frame_;
   const Kernel& kernel_;
   Film& film_;
   const TileOptions& options_;
@@ -224,7 +224,7 @@ class Goes {
   std::vector<Pixel> wanted;
 
  private:
-  void take(const Pixel* pixels, std::size_t count, int first, int end, Worker& worker) {
+  void take(const Frame& frame, const Pixel* pixels, std::size_t count, int first, int end, Worker& worker) {
     worker.sums.resize(count * color_channels);
     worker.squares.resize(count);
     worker.least_and_greatest.resize(count * 2 * color_channels);
@@ -242,7 +242,7 @@ class Goes {
     });
     PixelTask task{pixels, std::uint32_t(count), first,
                    end,    worker.sums.data(),   worker.least_and_greatest.data()};
-    if (frame_.tracing == Tracing::path) task.squares = worker.squares.data();
+    if (frame.tracing == Tracing::path) task.squares = worker.squares.data();
     const auto taken = std::size_t(end - first);
     if (film_.layers) {
       worker.layer_sums.resize(count * columns_);
@@ -253,7 +253,7 @@ class Goes {
         std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns_,
                     &worker.layer_sums[p * columns_]);
     }
-    kernel_.render(frame_, task, worker.scratch, worker.counts);
+    kernel_.render(frame, task, worker.scratch, worker.counts);
     if (film_.layers)
       for (std::size_t p = 0; p < count; ++p) {
         const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
@@ -263,7 +263,7 @@ class Goes {
       }
     exchange([&](Known& to, int c, double sum, double squares, float least, float greatest) {
       to.sum[c] = sum, to.squares = squares, to.least[c] = least, to.greatest[c] = greatest;
-      to.samples = end;
+      if (c == 0) to.samples += int(taken);
     });
   }
 };
@@ -279,7 +279,7 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
   for (int first = 0, end = start; !goes.wanted.empty() && !run.cancelled;) {
     // How many goes there will be is not known: each counts as half of what is left.
     const double progress_then = end == max ? 1 : (1 + progress) / 2;
-    goes.go(first, end, progress, progress_then, run);
+    goes.go(frame, first, end, progress, progress_then, run);
     if (end == max) break;
     std::erase_if(goes.wanted,
                   [&](const Pixel& pixel) { return !goes.samples.needs_more(pixel.x, pixel.y); });
@@ -294,24 +294,53 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
   return run;
 }
 
-TileRun render_until(const Frame& frame, const Kernel& kernel, const PathSettings& settings,
+TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSettings& settings, Film& film,
+                      const TileOptions& options) {
+  TileRun run;
+  Goes goes(exposure.at(0).frame, kernel, settings, film, options);
+  const std::vector<Pass> passes = exposure.passes();
+  for (std::size_t i = 0; i < passes.size() && !run.cancelled; ++i) {
+    const Frame& frame = exposure.at(passes[i].slice).frame;
+    goes.go(frame, passes[i].first, passes[i].end, double(i) / double(passes.size()),
+            double(i + 1) / double(passes.size()), run);
+    run.samples = frame.samples;
+    if (frame.tracing == Tracing::path) run.noise = goes.samples.noise();
+  }
+  goes.samples.develop(film);
+  return run;
+}
+
+TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSettings& settings,
                      const ImageSettings& image, Film& film, const TileOptions& options) {
   TileRun run;
-  Goes goes(frame, kernel, image, film, options);
-  const int max = frame.samples;
-  int first = 0, end = std::min(image.samples, max);
+  Goes goes(exposure.at(0).frame, kernel, image, film, options);
+  const std::vector<Slice>& slices = exposure.slices();
+  const auto count = int(slices.size());
+  const int max = exposure.at(0).frame.samples;
+  // As many samples for each slice.
+  const auto rounded = [&](double samples) {
+    return int(std::min(std::ceil(samples / count) * count, double(max)));
+  };
+  int first = 0, end = rounded(image.samples);
   for (double progress = 0; !run.cancelled;) {
     // Noise falls with the square root of the samples, so this is about how much is done by then.
-    const double then =
+    const double estimate =
         run.noise > 0 ? std::min(1.0, double(end) / samples_expected(run, settings, max)) : 0.5;
-    goes.go(first, end, progress, std::max(progress, then), run);
-    progress = std::max(progress, then);
+    const double from = progress, to = std::max(progress, estimate);
+    for (int k = 0; k < count && !run.cancelled; ++k) {
+      const int begin = slices[std::size_t(k)].first;
+      run.passes.push_back({k, begin + first / count, begin + end / count});
+      goes.go(exposure.at(k).frame, run.passes.back().first, run.passes.back().end,
+              from + (to - from) * k / count, from + (to - from) * (k + 1) / count, run);
+    }
+    progress = to;
     run.samples = end;
     run.noise = goes.samples.noise();
     if (run.noise <= settings.until || end == max) break;
     first = end;
     // No more than three times as many again: the estimate of the noise is rough where samples are few.
-    end = int(std::clamp(samples_expected(run, settings, max), end + 1.0, std::min(4.0 * end, double(max))));
+    end = rounded(
+        std::clamp(samples_expected(run, settings, max), end + 1.0, std::min(4.0 * end, double(max))));
   }
   goes.samples.develop(film);
   return run;

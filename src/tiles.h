@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "film/film.h"
-#include "integrators/frame.h"
+#include "integrators/prepare.h"
 #include "integrators/view.h"
 
 namespace lambent {
@@ -10,8 +10,9 @@ namespace lambent {
 struct TileRun {
   RayCounts counts;
   bool cancelled = false;
-  int samples = 0;   ///< Of each pixel, where all have the same.
-  double noise = 0;  ///< Of paths: NoiseSum's. Otherwise 0.
+  int samples = 0;           ///< Of each pixel, where all have the same.
+  double noise = 0;          ///< Of paths: NoiseSum's. Otherwise 0.
+  std::vector<Pass> passes;  ///< Of render_until: which samples each pixel got, in their order.
 };
 
 struct TileOptions {
@@ -26,6 +27,10 @@ int thread_count(int wanted);
 /// Renders every tile of the film: all samples of the frame. A tile depends on the frame alone.
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options);
 
+/// The same slice by slice of the shutter's time.
+TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSettings& settings, Film& film,
+                      const TileOptions& options);
+
 /// The same with samples where the picture needs them (settings.adaptive, which must be set): in several goes
 /// over the film, each over the pixels that the one before has left uncertain.
 ///   samples  if not null: how many each pixel got, row by row
@@ -33,8 +38,9 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
                           const TileOptions& options, std::vector<int>* samples = nullptr);
 
 /// The same with samples until the picture's noise is no more than `settings.until`: `start` samples of every
-/// pixel, then more, as many as the noise lets one expect.
-TileRun render_until(const Frame& frame, const Kernel& kernel, const PathSettings& settings,
+/// pixel, then more, as many as the noise lets one expect. Where something moves, each slice of the shutter's
+/// time gets as many of them.
+TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSettings& settings,
                      const ImageSettings& image, Film& film, const TileOptions& options);
 
 /// Renders a view in place of the colours: `samples` samples of every pixel, the first of the frame's.

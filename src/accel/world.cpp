@@ -91,7 +91,8 @@ template <class T> T* keep(std::vector<std::unique_ptr<std::vector<T>>>& store, 
 
 class Builder {
  public:
-  Builder(const Scene& scene, TreeQuality quality) : scene_(scene), quality_(quality) {}
+  Builder(const Scene& scene, TreeQuality quality, double time)
+      : scene_(scene), quality_(quality), time_(time) {}
 
   World build() {
     place_lights();
@@ -112,7 +113,7 @@ class Builder {
     std::size_t at_top = 0;
     for (const Object& object : scene_.objects) {
       const Shape& shape = scene_.shapes[object.shape];
-      at_top += can_bake(shape, object.world_from_object, shown[object.shape]) ? primitive_count(shape) : 1;
+      at_top += can_bake(shape, placed_at(object, time_), shown[object.shape]) ? primitive_count(shape) : 1;
     }
     for (const StandingLight& light : world_.lights) at_top += primitive_count(light.shape);
     Pages<BoxedPrimitive> top(at_top);
@@ -122,8 +123,9 @@ class Builder {
       for (std::uint32_t m : object.materials) world_.any_transmits |= world_.material_transmits[m];
       const Shape& shape = scene_.shapes[object.shape];
       if (primitive_count(shape) == 0) continue;
-      if (can_bake(shape, object.world_from_object, shown[object.shape])) {
-        bake(shape, object.world_from_object, index, top);
+      const Transform placed = placed_at(object, time_);
+      if (can_bake(shape, placed, shown[object.shape])) {
+        bake(shape, placed, index, top);
       } else {
         TreeOfShape& tree = tree_of_shape[object.shape];
         if (tree.bvh < 0) {
@@ -133,7 +135,7 @@ class Builder {
           tree.bvh = std::int64_t(world_.bvhs.size());
           world_.bvhs.push_back(build_tree(std::move(boxes), quality_, world_));
         }
-        add_instance(object, index, tree, top);
+        add_instance(placed, index, tree, top);
       }
     }
     for (std::size_t i = 0; i < world_.lights.size(); ++i) {
@@ -346,17 +348,16 @@ class Builder {
     }
   }
 
-  void add_instance(const Object& object, std::uint32_t index, const TreeOfShape& tree,
+  void add_instance(const Transform& placed, std::uint32_t index, const TreeOfShape& tree,
                     Pages<BoxedPrimitive>& boxes) {
     const Bvh& root = world_.bvhs[std::size_t(tree.bvh)];
     Bounds b;
     for (int corner = 0; corner < 8; ++corner)
-      b.add(transform_point(object.world_from_object, {double(corner & 1 ? root.upper.x : root.lower.x),
-                                                       double(corner & 2 ? root.upper.y : root.lower.y),
-                                                       double(corner & 4 ? root.upper.z : root.lower.z)}));
+      b.add(transform_point(placed, {double(corner & 1 ? root.upper.x : root.lower.x),
+                                     double(corner & 2 ? root.upper.y : root.lower.y),
+                                     double(corner & 4 ? root.upper.z : root.lower.z)}));
     boxes.push_back(boxed({instance_geometry, std::int32_t(world_.instances.size())}, b));
-    world_.instances.push_back({object.world_from_object, inverse(object.world_from_object),
-                                std::uint32_t(tree.bvh), index, tree.geometry});
+    world_.instances.push_back({placed, inverse(placed), std::uint32_t(tree.bvh), index, tree.geometry});
   }
 
   void lay_out_spheres() {
@@ -376,6 +377,7 @@ class Builder {
 
   const Scene& scene_;
   TreeQuality quality_;
+  double time_;
   World world_;
   std::tuple<Joined<Sphere>, Joined<PlacedCone>, Joined<Disc>, Joined<Plane>> joined_;
 };
@@ -395,6 +397,8 @@ WorldView World::view() const {
           material_transmits.get()};
 }
 
-World build_world(const Scene& scene, TreeQuality quality) { return Builder(scene, quality).build(); }
+World build_world(const Scene& scene, TreeQuality quality, double time) {
+  return Builder(scene, quality, time).build();
+}
 
 }  // namespace lambent

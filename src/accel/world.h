@@ -152,6 +152,7 @@ enum class TreeQuality {
   thorough,  ///< By the surface area heuristic: faster to query.
 };
 
-World build_world(const Scene& scene, TreeQuality quality = TreeQuality::thorough);
+/// `time`: of the shutter's; it matters where something moves.
+World build_world(const Scene& scene, TreeQuality quality = TreeQuality::thorough, double time = 0);
 
 }  // namespace lambent

@@ -11,10 +11,17 @@
 namespace lambent {
 namespace {
 
-/// Notes what a kernel tells.
+/// Notes what a kernel tells in one call.
 class Notes {
  public:
-  Notes(Derivation& derivation, const Frame& frame) : to_(derivation), frame_(frame) {}
+  /// `pass`: whose first sample of each pixel is in its turn the derivation's from `first_sample` on.
+  Notes(Derivation& derivation, const PreparedFrame& prepared, const Pass& pass, std::size_t first_sample)
+      : to_(derivation),
+        materials_(prepared.white.empty() ? derivation.scene->materials : prepared.white),
+        frame_(prepared.frame),
+        pass_(pass),
+        first_sample_(first_sample),
+        first_ray_(std::uint32_t(derivation.rays.size())) {}
 
   Witness witness() {
     return {this,
@@ -22,6 +29,7 @@ class Notes {
             [](void* self, const SeenHit& seen) { static_cast<Notes*>(self)->hit(seen); },
             [](void* self, const SeenLight& seen) { static_cast<Notes*>(self)->light(seen); },
             [](void* self, const SeenTerm& seen) { static_cast<Notes*>(self)->term(seen); },
+            [](void* self, const SeenFog& seen) { static_cast<Notes*>(self)->fog(seen); },
             [](void* self, const SeenColor& seen) { static_cast<Notes*>(self)->color(seen); },
             [](void* self, const SeenFind& seen) { static_cast<Notes*>(self)->find(seen); },
             [](void* self, const SeenSearch& seen) { static_cast<Notes*>(self)->search(seen); }};
@@ -35,17 +43,26 @@ class Notes {
   void ray(const SeenRay& seen) {
     DerivedRay ray;
     ray.seen = seen;
-    to_.rays.push_back(ray);
-    sample_of_.push_back(seen.parent == no_ray ? std::size_t(seen.pixel) + std::size_t(seen.sample)
-                                               : sample_of_[seen.parent]);
-    if (seen.parent != no_ray) to_.rays[seen.parent].children.push_back(seen.ray);
-    else to_.samples[sample_of_.back()].eye_ray = seen.ray;
+    ray.seen.ray += first_ray_;
+    if (seen.parent == no_ray) {
+      const std::size_t sample = first_sample_ +
+                                 std::size_t(seen.pixel) * std::size_t(pass_.end - pass_.first) +
+                                 std::size_t(seen.sample - pass_.first);
+      sample_of_.push_back(sample);
+      to_.samples[sample].eye_ray = ray.seen.ray;
+    } else {
+      ray.seen.parent += first_ray_;
+      sample_of_.push_back(sample_of_[seen.parent]);
+      to_.rays[ray.seen.parent].children.push_back(ray.seen.ray);
+    }
+    to_.rays.push_back(std::move(ray));
   }
   void hit(const SeenHit& seen) {
-    DerivedRay& ray = to_.rays[seen.ray];
+    DerivedRay& ray = to_.rays[first_ray_ + seen.ray];
     ray.hits = true;
     ray.hit = seen;
-    ray.material = to_.given_material(seen.material);
+    ray.material =
+        seen.material < materials_.size() ? materials_[seen.material] : to_.given_material(seen.material);
     ray.material.ambient = seen.numbers.ambient;
     ray.material.diffuse = seen.numbers.diffuse;
     ray.material.specular = seen.numbers.specular;
@@ -66,7 +83,7 @@ class Notes {
     for (std::size_t p = 0; p < ray.lights.size(); ++p) ray.lights[p].point = frame_.light_points[p];
   }
   void light(const SeenLight& seen) {
-    DerivedRay& ray = to_.rays[seen.ray];
+    DerivedRay& ray = to_.rays[first_ray_ + seen.ray];
     DerivedLight& light = ray.lights[std::size_t(seen.point)];
     light.seen = seen;
     light.NL = dot(ray.hit.N, seen.L);
@@ -78,7 +95,7 @@ class Notes {
                                           : LightState::visible;
   }
   void term(const SeenTerm& seen) {
-    DerivedRay& ray = to_.rays[seen.ray];
+    DerivedRay& ray = to_.rays[first_ray_ + seen.ray];
     switch (seen.term) {
       case Term::ambient:
         ray.ambient = seen.color;
@@ -94,20 +111,27 @@ class Notes {
         return;
     }
   }
+  void fog(const SeenFog& seen) {
+    DerivedRay& ray = to_.rays[first_ray_ + seen.ray];
+    to_.samples[sample_of_[seen.ray]].order.push_back({ray.seen.ray, ray.seen.weight, seen.brings, true});
+    ray.fog = seen;
+  }
   void color(const SeenColor& seen) {
-    to_.rays[seen.ray].color = seen.color;
+    to_.rays[first_ray_ + seen.ray].color = seen.color;
     add(seen.ray, seen.color);
   }
   void find(const SeenFind& seen) {
-    to_.rays[seen.ray].find = seen;
+    to_.rays[first_ray_ + seen.ray].find = seen;
     add(seen.ray, seen.brings);
   }
   void search(const SeenSearch& seen) {
-    to_.rays[seen.ray].search = seen;
+    to_.rays[first_ray_ + seen.ray].search = seen;
     if (seen.open) add(seen.ray, seen.brings);
   }
   void add(std::uint32_t ray, const Rgb& color) {
-    to_.samples[sample_of_[ray]].order.push_back({ray, color});
+    const DerivedRay& which = to_.rays[first_ray_ + ray];
+    to_.samples[sample_of_[ray]].order.push_back(
+        {which.seen.ray, which.fog ? which.fog->weight : which.seen.weight, color});
   }
 
   /// What the shadow ray meets, up to the first thing that blocks it: asked for as `transmittance` in the
@@ -140,7 +164,11 @@ class Notes {
   }
 
   Derivation& to_;
+  const std::vector<Material>& materials_;
   const Frame& frame_;
+  const Pass& pass_;
+  std::size_t first_sample_;
+  std::uint32_t first_ray_;  ///< Of the derivation's: rays are numbered anew in each call.
   std::vector<std::size_t> sample_of_;
 };
 
@@ -154,6 +182,16 @@ const Material& Derivation::given_material(std::uint32_t material) const {
   const std::size_t count = scene->materials.size();
   return material < count ? scene->materials[material] : standing_lights[material - count].material;
 }
+std::optional<DerivedLens> Derivation::lens_of(const DerivedSample& sample) const {
+  const CameraRecord camera = camera_record(scene->camera);
+  if (!(camera.lens_radius > 0)) return {};
+  const SeenRay& ray = rays[sample.eye_ray].seen;
+  const Vec3<double> focus = ray.o + (camera.focus / dot(ray.d, camera.forward)) * ray.d;
+  const bool flat = scene->camera.projection == Projection::orthographic;
+  const Vec3<double> off_centre = ray.o - (flat ? focus - camera.focus * camera.forward : camera.eye);
+  return DerivedLens{{dot(off_centre, camera.right), dot(off_centre, camera.up)}, focus};
+}
+
 bool Derivation::adds_up() const { return std::equal(pixel, pixel + color_channels, rendered); }
 
 int Derivation::code(int channel) const {
@@ -161,8 +199,8 @@ int Derivation::code(int channel) const {
   return quantize(scene->image.encoding == Encoding::srgb ? srgb_from_linear(linear) : linear, 255);
 }
 
-Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
-                  int x, int y, int samples) {
+Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
+                  const std::vector<Pass>& passes) {
   Derivation result;
   const bool corners = scene->image.pattern == Pattern::corners;
   result.scene = std::move(scene);
@@ -173,33 +211,42 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   std::vector<Pixel> pixels{{x, y}};
   if (corners) pixels = {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
   double nearest = 0;
-  for (const Pixel& pixel : pixels)
-    for (int s = 0; s < samples; ++s) {
-      DerivedSample sample;
-      sample.x = pixel.x + prepared.frame.pattern[s].x;
-      sample.y = pixel.y + prepared.frame.pattern[s].y;
-      const double dx = sample.x - x - 0.5, dy = sample.y - y - 0.5, distance = dx * dx + dy * dy;
-      if (result.samples.empty() || distance < nearest)
-        nearest = distance, result.central = int(result.samples.size());
-      result.samples.push_back(sample);
-    }
-
-  Frame frame = prepared.frame;
-  Notes notes(result, frame);
-  const Witness witness = notes.witness();
-  const RayListener listener = notes.listener();
-  frame.witness = &witness;
-  frame.listener = &listener;
   std::vector<double> sums(pixels.size() * color_channels);
   Scratch scratch;
   RayCounts counts;
-  kernel.render(frame, {pixels.data(), std::uint32_t(pixels.size()), 0, samples, sums.data(), nullptr},
-                scratch, counts);
+  int samples = 0;  // of each pixel
+  for (const Pass& pass : passes) {
+    const PreparedFrame& prepared = exposure.at(pass.slice);
+    result.illumination = prepared.illumination;
+    result.background = prepared.frame.background;
+    const std::size_t first_sample = result.samples.size();
+    for (const Pixel& pixel : pixels)
+      for (int s = pass.first; s < pass.end; ++s) {
+        const Vec2<double>& at = prepared.frame.pattern[prepared.frame.order ? prepared.frame.order[s] : s];
+        DerivedSample sample;
+        sample.x = pixel.x + at.x, sample.y = pixel.y + at.y;
+        sample.time = exposure.slices()[std::size_t(pass.slice)].time;
+        const double dx = sample.x - x - 0.5, dy = sample.y - y - 0.5, distance = dx * dx + dy * dy;
+        if (result.samples.empty() || distance < nearest)
+          nearest = distance, result.central = int(result.samples.size());
+        result.samples.push_back(sample);
+      }
+    samples += pass.end - pass.first;
+
+    Frame frame = prepared.frame;
+    Notes notes(result, prepared, pass, first_sample);
+    const Witness witness = notes.witness();
+    const RayListener listener = notes.listener();
+    frame.witness = &witness;
+    frame.listener = &listener;
+    kernel.render(frame,
+                  {pixels.data(), std::uint32_t(pixels.size()), pass.first, pass.end, sums.data(), nullptr},
+                  scratch, counts);
+  }
 
   for (DerivedSample& sample : result.samples) {
     for (const DerivedSummand& summand : sample.order)
-      for (int c = 0; c < color_channels; ++c)
-        sample.color[c] += result.rays[summand.ray].seen.weight[c] * summand.color[c];
+      for (int c = 0; c < color_channels; ++c) sample.color[c] += summand.weight[c] * summand.color[c];
     result.sum = result.sum + sample.color;
   }
   // Developed as a picture of this pixel alone.

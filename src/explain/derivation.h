@@ -46,6 +46,7 @@ struct DerivedRay {
   Material material;  ///< With the numbers that it has at this point.
   std::uint32_t object = 0;
   std::int32_t primitive = 0;  ///< Within its shape.
+  std::optional<SeenFog> fog;
   Rgb ambient{}, emission{};
   std::vector<DerivedLight> lights;  ///< One for each point of the scene's lights.
   Rgb color{};                       ///< What it adds, before its weight.
@@ -55,15 +56,24 @@ struct DerivedRay {
   std::optional<SeenSearch> search;
 };
 
-/// What is added to a sample: the ray's weight times a colour.
+/// What is added to a sample: the ray's weight times a colour. Where there is fog on the way the ray counts
+/// once for that, and then for less.
 struct DerivedSummand {
   std::uint32_t ray;
-  Rgb color;
+  Rgb weight, color;
+  bool is_fog = false;
+};
+
+/// Where a sample's first ray goes through the lens.
+struct DerivedLens {
+  Vec2<double> at;     ///< From its centre, to the right and up, in scene units.
+  Vec3<double> focus;  ///< The point of the plane in focus that it goes through.
 };
 
 /// A sample: its first ray, and what is added, in order.
 struct DerivedSample {
   double x = 0, y = 0;  ///< In pixels from the picture's top left corner.
+  double time = 0;      ///< Of the shutter's; where something moves.
   std::uint32_t eye_ray = 0;
   std::vector<DerivedSummand> order;
   Rgb color{};  ///< Their sum.
@@ -72,6 +82,8 @@ struct DerivedSample {
 struct Derivation {
   std::shared_ptr<const Scene> scene;
   std::vector<StandingLight> standing_lights;
+  Illumination illumination;  ///< The scene's, or what its integrator puts in its place; so is
+  Rgb background;
   int x, y;
   std::vector<DerivedRay> rays;  ///< By their number.
   std::vector<DerivedSample> samples;
@@ -82,18 +94,22 @@ struct Derivation {
   std::vector<AskedRay> asked;
 
   const Material& material_of(const DerivedRay& ray) const { return ray.material; }
-  ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
+  ModelId model_of(const DerivedRay& ray) const {
+    return material_of(ray).model.value_or(illumination.model);
+  }
   /// Where an object was written, or a light that stands in the world; and the material that it was given.
   const Place& place_of_object(std::uint32_t object) const;
   const Material& given_material(std::uint32_t material) const;
+  /// Of a camera that has a lens.
+  std::optional<DerivedLens> lens_of(const DerivedSample& sample) const;
   /// Whether the terms are the rendered pixel, in every bit.
   bool adds_up() const;
   /// A channel of the pixel in an 8-bit PNG.
   int code(int channel) const;
 };
 
-/// Renders pixel x, y once more, and notes what is told. `samples`: how many of the frame's pattern it gets.
-Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
-                  int x, int y, int samples);
+/// Renders pixel x, y once more, and notes what is told. `passes`: which samples it gets.
+Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
+                  const std::vector<Pass>& passes);
 
 }  // namespace lambent

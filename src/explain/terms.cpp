@@ -29,7 +29,7 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
 
 MathTerm ambient_formula(const Derivation& derivation, const DerivedRay& ray) {
   Formulas formulas;
-  const Illumination& illumination = derivation.scene->illumination;
+  const Illumination& illumination = derivation.illumination;
   const ModelId model = derivation.model_of(ray);
   const auto s = surface_symbols(derivation, ray);
   const Traced faded = attenuate(ambient_attenuation_of(illumination, model), Traced::symbol("R", ray.hit.R),
@@ -46,8 +46,8 @@ LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray
   {
     Formulas formulas;
     const Traced faded =
-        attenuate(attenuation_of(derivation.scene->illumination, derivation.model_of(ray)),
-                  Traced::symbol("r", light.r), Traced(derivation.scene->illumination.minimum_distance));
+        attenuate(attenuation_of(derivation.illumination, derivation.model_of(ray)),
+                  Traced::symbol("r", light.r), Traced(derivation.illumination.minimum_distance));
     Color<Traced> I = faded * color_symbol("Il", light.I);
     // 1 where nothing is in the way.
     if (!(light.share == grey(1.0))) I = color_symbol("T", light.share) * I;

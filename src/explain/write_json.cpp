@@ -38,9 +38,9 @@ class Telling {
     result["scene"] = scene_.name;
     result["size"] = {scene_.image.width, scene_.image.height};
     result["pixel"] = {d_.x, d_.y};
-    result["ambient"] = json(scene_.illumination.ambient);
-    result["background"] = json(scene_.background);
-    result["minimum_distance"] = scene_.illumination.minimum_distance;
+    result["ambient"] = json(d_.illumination.ambient);
+    result["background"] = json(d_.background);
+    result["minimum_distance"] = d_.illumination.minimum_distance;
     result["sample_count"] = d_.samples.size();
     result["central_sample"] = d_.central;
     result["samples"] = Json::array();
@@ -63,6 +63,9 @@ class Telling {
     Json result;
     result["sample"] = number;
     result["position"] = {sample.x, sample.y};
+    if (is_moving(scene_)) result["time"] = sample.time;
+    if (const auto lens = d_.lens_of(sample))
+      result["lens"] = {{"at", {lens->at.x, lens->at.y}}, {"focus", json(lens->focus)}};
     result["weight"] = 1.0 / double(d_.samples.size());
     result["color"] = json(sample.color);
     result["order"] = Json::array();
@@ -83,6 +86,11 @@ class Telling {
     result["direction"] = json(ray.seen.d);
     result["factor"] = json(ray.seen.factor);
     result["weight"] = json(ray.seen.weight);
+    if (ray.fog)
+      result["fog"] = {{"way", finite(ray.fog->way)},
+                       {"share", ray.fog->share},
+                       {"brings", json(ray.fog->brings)},
+                       {"weight", json(ray.fog->weight)}};
     result["color"] = json(ray.color);
     const bool is_path = scene_.integrator == Integrator::path;
     result["hit"] = !ray.hits ? Json(nullptr) : is_path ? surface(ray) : hit(ray);

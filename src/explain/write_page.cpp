@@ -34,6 +34,12 @@ class Telling {
     page_.line(fmt::format("Sample {} of {}, at {}, {}{}.", number, d_.samples.size(), short_number(sample.x),
                            short_number(sample.y),
                            number == d_.central ? ", the nearest to the pixel's centre" : ""));
+    if (is_moving(scene_))
+      page_.line(
+          fmt::format("It is taken at {} of the time that the shutter is open.", short_number(sample.time)));
+    if (const auto lens = d_.lens_of(sample))
+      page_.line(fmt::format("It goes through the lens at ({}, {}) from its centre, and is in focus at {}.",
+                             short_number(lens->at.x), short_number(lens->at.y), text_of(lens->focus)));
     if (scene_.integrator == Integrator::path) tell_path(sample.eye_ray);
     else tell_ray(sample.eye_ray);
     tell_sums(sample);
@@ -52,6 +58,7 @@ class Telling {
     if (ray.seen.parent != no_ray)
       page_.line(fmt::format("counts {} of what it brings; {} in the sample", short_color(ray.seen.factor),
                              short_color(ray.seen.weight)));
+    if (ray.fog) tell_fog(*ray.fog);
     if (!ray.hits) {
       page_.line(fmt::format("meets nothing: the background, {}", short_color(ray.color)));
       return;
@@ -65,6 +72,16 @@ class Telling {
     }
   }
 
+  void tell_fog(const SeenFog& fog) {
+    const Fog& scene = scene_.fog;
+    page_.line(
+        fmt::format("goes through fog{}: exp(-{} t) is left of a colour",
+                    fog.way < 1e300 ? fmt::format(" for t = {}", short_number(fog.way)) : " without end",
+                    short_number(scene.density)));
+    page_.equation("share", {written(grey(fog.share), page_.notation())}, "left of what the ray brings");
+    equation_of_colors("fog", {fog.brings}, "the rest of the fog's " + short_color(scene.color));
+  }
+
   // ---- a path, ray by ray
 
   void tell_path(std::uint32_t number) {
@@ -73,6 +90,7 @@ class Telling {
       page_.heading(fmt::format("Ray {}{}", number, ray.seen.parent == no_ray ? ", from the eye" : ""));
       page_.line(fmt::format("starts at {}, goes along {}", text_of(ray.seen.o), text_of(ray.seen.d)));
       if (ray.seen.parent != no_ray) tell_choice(ray);
+      if (ray.fog) tell_fog(*ray.fog);
       if (ray.hits) tell_surface(ray);
       else page_.line("meets nothing: the background");
       if (ray.find) tell_find(ray, *ray.find);
@@ -183,8 +201,7 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
-    if (const std::string how = how_painted(d_.given_material(ray.hit.material)); !how.empty())
-      page_.line(how);
+    if (const std::string how = how_painted(material); !how.empty()) page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
     equation("V", text_of(ray.hit.V));
@@ -192,8 +209,7 @@ class Telling {
     const ModelInfo& model = info(d_.model_of(ray));
     page_.line(fmt::format(
         "model {}: Ka Ia{} + sum over the lights of {}", model.name,
-        ambient_attenuation_of(scene_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? ""
-                                                                                                  : " / R",
+        ambient_attenuation_of(d_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? "" : " / R",
         model.equation));
   }
 
@@ -293,15 +309,14 @@ class Telling {
     page_.heading("The sample's colour");
     Rgb sum{};
     for (const DerivedSummand& summand : sample.order) {
-      const DerivedRay& ray = d_.rays[summand.ray];
       Rgb brings;
-      for (int c = 0; c < color_channels; ++c) brings[c] = ray.seen.weight[c] * summand.color[c];
+      for (int c = 0; c < color_channels; ++c) brings[c] = summand.weight[c] * summand.color[c];
       sum = sum + brings;
       std::vector<std::string> sides{written(brings, page_.notation())};
-      if (!(ray.seen.weight == grey(1.0)))
-        sides.insert(sides.begin(), written(ray.seen.weight, page_.notation()) + times() +
+      if (!(summand.weight == grey(1.0)))
+        sides.insert(sides.begin(), written(summand.weight, page_.notation()) + times() +
                                         written(summand.color, page_.notation()));
-      page_.equation(fmt::format("ray {}", summand.ray), sides, "");
+      page_.equation(fmt::format("ray {}", summand.ray), sides, summand.is_fog ? "the fog before it" : "");
     }
     page_.equation("sum", {written(sum, page_.notation())}, "");
   }

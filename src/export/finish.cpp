@@ -37,11 +37,16 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
     remarks.add({},
                 "is told by its command line how many rays to send through a pixel; the scene's samples are "
                 "left out");
+  if (scene.camera.aperture > 0) remarks.add({}, "is not told of the lens; everything is in focus");
+  if (scene.fog.density > 0) remarks.add({}, "is not told of the fog; the air is clear");
   if (scene.background_image)
     remarks.add({}, "is not given the image around the scene; its factor stands for it");
   if (scene.illumination.occlusion)
     remarks.add({}, "is not told of ambient occlusion; ambient light is everywhere");
   for (const Object& object : scene.objects) {
+    if (!object.motion.empty())
+      remarks.add(object.place, "is not told of motion; " + called("object", object.name) +
+                                    " stands where it is when the shutter opens");
     const Mesh* mesh = std::get_if<Mesh>(&scene.shapes[object.shape].primitives);
     if (mesh && !mesh->colors.empty())
       remarks.add(object.place, "is not given the colours of vertices; " + called("object", object.name) +

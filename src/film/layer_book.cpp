@@ -134,6 +134,7 @@ std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light
   if (term == LayerPlan::ambient) return name + "ambient";
   if (term == LayerPlan::emission) return name + "emission";
   if (term == LayerPlan::background) return name + "background";
+  if (plan.fog && term == plan.fog_layer()) return name + "fog";
   const int light = (term - LayerPlan::first_light) / 2;
   const int count = int(lights.size());
   if (plan.lights == path_source_count(count)) {

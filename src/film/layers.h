@@ -3,8 +3,8 @@
 //
 // The way is how light came from the surface that it lit to the eye: directly, or by the mirror ray or the
 // refracted ray that left the surface which the eye sees, and whatever followed. On each way there are the
-// ambient term, emission and background, then for each light the diffuse and the specular term. Every summand
-// of the picture belongs to exactly one layer.
+// ambient term, emission and background, then for each light the diffuse and the specular term, and the fog
+// on the way, if there is some. Every summand of the picture belongs to exactly one layer.
 
 #include <cstdint>
 
@@ -28,9 +28,11 @@ struct LayerPlan {
 
   int lights = 0;
   bool reflection = false, refraction = false;  ///< Whether anything may come on these ways.
+  bool fog = false;
 
   int ways() const { return 1 + reflection + refraction; }
-  int per_way() const { return first_light + 2 * lights; }
+  int per_way() const { return first_light + 2 * lights + fog; }
+  int fog_layer() const { return first_light + 2 * lights; }  ///< Of a way; if there is fog.
   int count() const { return ways() * per_way(); }
   /// The number of a way's first layer; the way must be there.
   int first_of(Way way) const {

@@ -25,6 +25,7 @@ struct MaterialRecord {
   int light;                 ///< Of a light that stands in the world: which; otherwise -1.
   int scatter;               ///< For paths: ScatterKind.
   bool dark_inside;          ///< Its emission is seen from outside alone.
+  bool white;                ///< Vertices do not colour it.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -42,6 +43,12 @@ struct EnvironmentRecord {
   bool z_up = false;  ///< Otherwise y is up.
 };
 
+/// The scene's fog; density 0: none.
+struct FogRecord {
+  Rgb color;
+  double density = 0, start = 0;
+};
+
 /// How light fades under a model: the scene's choice, or the model's own.
 struct FadingRecord {
   Attenuation attenuation;
@@ -50,10 +57,13 @@ struct FadingRecord {
 
 /// Eye rays start at eye + (x * right + y * up) * spread_of_origins, and go along forward + (x * right + y *
 /// up) * spread_of_directions, with x and y in units of half the picture's height, from its centre, x to the
-/// right and y upwards.
+/// right and y upwards. With a lens they start at a point of it instead, a disc around that place across
+/// `forward`, and go through the point where the ray from its centre meets the plane in focus.
 struct CameraRecord {
   Vec3<double> eye, forward, right, up;  ///< The last three of unit length.
   double spread_of_origins, spread_of_directions;
+  double lens_radius = 0;  ///< 0: a pinhole.
+  double focus = 1;        ///< How far before the lens that plane lies.
 };
 
 struct RayCounts {
@@ -129,6 +139,14 @@ struct SeenTerm {
   int point;  ///< Index into Frame::light_points; -1: of no light.
   Rgb color;
 };
+/// Fog on a ray's way, told before what the ray brings.
+struct SeenFog {
+  std::uint32_t ray;
+  double way;    ///< In the fog; infinite where the ray meets nothing.
+  double share;  ///< What is left of a colour after that way.
+  Rgb brings;    ///< The fog's own: the rest of its colour.
+  Rgb weight;    ///< What the ray's colour counts in its sample from now on.
+};
 struct SeenColor {
   std::uint32_t ray;
   Rgb color;  ///< Of the ray, before its weight; of a ray that met nothing the background.
@@ -164,6 +182,7 @@ struct Witness {
   void (*hit)(void* self, const SeenHit&);
   void (*light)(void* self, const SeenLight&);
   void (*term)(void* self, const SeenTerm&);
+  void (*fog)(void* self, const SeenFog&);
   void (*color)(void* self, const SeenColor&);
   void (*find)(void* self, const SeenFind&);
   void (*search)(void* self, const SeenSearch&);
@@ -194,6 +213,8 @@ struct Frame {
   int width, height;            ///< Of the picture, in pixels.
   const Vec2<double>* pattern;  ///< Where a pixel's `samples` lie, from its upper left corner.
   int samples;
+  const int* order =
+      nullptr;  ///< Null: they are taken as they come. Otherwise in this order (film/shutter.h).
   const AnyLight* lights;
   int light_count;
   const LightPoint* light_points;  ///< Light by light.
@@ -211,6 +232,7 @@ struct Frame {
   bool any_dark_inside = false;  ///< Whether a material is.
   FadingRecord fading[model_count];
   Rgb ambient, background;
+  FogRecord fog;
   AmbientOcclusion occlusion{0, 0};  ///< With no rays: nothing is hidden.
   double minimum_distance;
   WhittedSettings whitted;
@@ -223,8 +245,8 @@ struct Pixel {
   std::int32_t x, y;
 };
 
-/// Some pixels of the film, and which of their samples to take: the pattern's from `first_sample` up to
-/// `end_sample`, that one not included.
+/// Some pixels of the film, and which of their samples to take: in the frame's order those from
+/// `first_sample` up to `end_sample`, that one not included.
 struct PixelTask {
   const Pixel* pixels;
   std::uint32_t count;

@@ -84,11 +84,12 @@ inline Paint paint_as_given(const Frame& frame, const HitIds<std::int32_t>& ids,
                             const Vec3<double>& d, double width) {
   const MaterialRecord& m = frame.unpainted[material];
   const SurfaceCoordinates at = coordinates_at(frame.world, ids, P);
-  Paint out{m.ambient, m.diffuse,    m.specular, m.emission, m.reflect, m.transmit, m.shininess,
-            m.ior,     at.curvature, 0,          false,      N,         m.rough,    m.opacity * at.color[3],
-            1};
+  Paint out{m.ambient,  m.diffuse,   m.specular, m.emission,   m.reflect,
+            m.transmit, m.shininess, m.ior,      at.curvature, 0,
+            false,      N,           m.rough,    m.opacity,    1};
+  if (!m.white || m.alpha == Alpha::mask) out.opacity *= at.color[3];
   MetallicRoughnessOf<double, Rgb>& rough = out.rough;
-  const Rgb vertex_color{at.color[0], at.color[1], at.color[2]};
+  const Rgb vertex_color = m.white ? grey(1.0) : Rgb{at.color[0], at.color[1], at.color[2]};
   if (m.is_rough) rough.base_color = rough.base_color * vertex_color;
   out.ka = out.ka * vertex_color, out.kd = out.kd * vertex_color;
   if (m.unlit) out.emission = out.emission * vertex_color;

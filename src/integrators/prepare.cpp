@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "integrators/ambient_occlusion.h"
 #include "scattering/surface.h"
 #include "scene/uniform_material.h"
 
@@ -12,7 +13,8 @@ namespace lambent {
 CameraRecord camera_record(const Camera& camera) {
   const Vec3<double> forward = normalize(camera.target - camera.eye);
   const Vec3<double> right = normalize(cross(forward, camera.up));
-  CameraRecord record{camera.eye, forward, right, cross(right, forward), 0, 0};
+  CameraRecord record{
+      camera.eye, forward, right, cross(right, forward), 0, 0, camera.aperture / 2, focus_distance(camera)};
   if (camera.projection == Projection::orthographic) {
     record.spread_of_origins = camera.height / 2;
   } else {
@@ -137,32 +139,54 @@ TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
   return samples < 2 * primitives ? TreeQuality::quick : TreeQuality::thorough;
 }
 
-std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
+namespace {
+
+/// Where the samples of each pixel lie.
+std::vector<Vec2<double>> pattern_of(const Scene& scene, bool in_slices) {
+  const ImageSettings& image = scene.image;
+  if (image.pattern == Pattern::corners) return {{0, 0}};
+  if (is_progressive(scene)) {
+    int most = std::max(scene.path.max_samples, image.samples);
+    if (in_slices) most -= most % std::min(image.samples, image.shutter_slices);  // as many for each
+    return progressive_pattern(most, image.samples, image.filter);
+  }
+  if (image.adaptive) return progressive_pattern(image.adaptive->max, image.adaptive->start, image.filter);
+  return in_slices ? progressive_pattern(image.samples, image.samples, image.filter)
+                   : sample_pattern(image.samples, image.filter);
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   auto prepared = std::make_unique<PreparedFrame>();
   Frame& frame = prepared->frame;
 
   frame.camera = camera_record(scene.camera);
   const bool is_adaptive = scene.image.is_adaptive();
-  const bool corners = scene.image.pattern == Pattern::corners;
   frame.width = scene.image.width;
   frame.height = scene.image.height;
-  prepared->pattern =
-      corners                 ? std::vector<Vec2<double>>{{0, 0}}
-      : is_progressive(scene) ? progressive_pattern(std::max(scene.path.max_samples, scene.image.samples),
-                                                    scene.image.samples, scene.image.filter)
-      : scene.image.adaptive
-          ? progressive_pattern(scene.image.adaptive->max, scene.image.adaptive->start, scene.image.filter)
-          : sample_pattern(scene.image.samples, scene.image.filter);
+  // A view shows what is there in the middle of the shutter's time.
+  const bool in_slices = is_moving(scene) && scene.integrator != Integrator::view;
+  prepared->pattern = pattern_of(scene, in_slices);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
+  if (in_slices) {
+    prepared->shutter =
+        open_shutter(frame.samples, std::min(scene.image.samples, scene.image.shutter_slices));
+    frame.order = prepared->shutter.order.data();
+  }
 
-  prepared->tree_quality =
-      suitable_quality(primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples);
-  prepared->world = build_world(scene, prepared->tree_quality);
+  const std::uint64_t slices = std::max<std::size_t>(1, prepared->shutter.slices.size());
+  prepared->tree_quality = suitable_quality(
+      primitive_count(scene), std::uint64_t(frame.width) * frame.height * frame.samples / slices);
+  prepared->world = build_world(scene, prepared->tree_quality, time);
+  const bool is_white = scene.integrator == Integrator::ambient_occlusion;
+  if (is_white) block_all_but_cut_outs(scene, prepared->world);
   frame.world = prepared->world.view();
   frame.any_transmits = prepared->world.any_transmits;
 
-  for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
+  if (!is_white)
+    for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
   frame.lights = prepared->lights.data();
   frame.light_count = int(prepared->lights.size());
   for (int l = 0; l < frame.light_count; ++l)
@@ -177,11 +201,14 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.light_point_count = int(prepared->light_points.size());
   for (const AnyLight& light : prepared->lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
-  for (const Material& material : scene.materials) {
+  if (is_white)
+    for (const Material& material : scene.materials) prepared->white.push_back(whitened(material));
+  for (const Material& material : is_white ? prepared->white : scene.materials) {
     prepared->unpainted.push_back(unpainted(scene, material));
+    prepared->unpainted.back().white = is_white;
     prepared->materials.push_back(material_record(scene, material, prepared->unpainted.back()));
   }
-  note_vertex_colors(scene, prepared->materials);
+  if (!is_white) note_vertex_colors(scene, prepared->materials);
   add_light_materials(scene, prepared->world.lights, *prepared);
   frame.materials = prepared->materials.data();
   frame.unpainted = prepared->unpainted.data();
@@ -191,7 +218,8 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   }
   for (const Texture& texture : scene.textures) prepared->textures.push_back(texture_record(texture));
   frame.textures = prepared->textures.data();
-  if (scene.background_image) {
+  frame.background = is_white ? grey(1.0) : scene.background;
+  if (scene.background_image && !is_white) {
     frame.environment.texture = prepared->textures[*scene.background_image];
     frame.environment.turn = scene.background_turn / 360;
     frame.environment.z_up = scene.background_z_up;
@@ -204,24 +232,28 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   const double share = 1 / std::sqrt(double(sharing));
   frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
   frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
+  if (!is_white) frame.fog = {scene.fog.color, scene.fog.density, scene.fog.start};
+  frame.layers.fog = frame.fog.density > 0;
+  frame.whitted = scene.whitted;
+  if (is_white) frame.whitted.max_depth = 1;
   frame.layers.lights = frame.light_count;
   if (scene.integrator == Integrator::path) {
     frame.layers.lights = path_source_count(frame.light_count);
-  } else if (scene.whitted.max_depth > 1)
+  } else if (frame.whitted.max_depth > 1)
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
         frame.layers.refraction |= prepared->materials[m].transmits;
         frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
       }
+  prepared->illumination = is_white ? even_sky(scene.ambient_occlusion) : scene.illumination;
+  const Illumination& illumination = prepared->illumination;
   for (int model = 0; model < model_count; ++model)
-    frame.fading[model] = {attenuation_of(scene.illumination, ModelId(model)),
-                           ambient_attenuation_of(scene.illumination, ModelId(model))};
-  frame.ambient = scene.illumination.ambient;
-  if (scene.illumination.occlusion) frame.occlusion = *scene.illumination.occlusion;
-  frame.minimum_distance = scene.illumination.minimum_distance;
-  frame.background = scene.background;
-  frame.whitted = scene.whitted;
+    frame.fading[model] = {attenuation_of(illumination, ModelId(model)),
+                           ambient_attenuation_of(illumination, ModelId(model))};
+  frame.ambient = illumination.ambient;
+  if (illumination.occlusion) frame.occlusion = *illumination.occlusion;
+  frame.minimum_distance = illumination.minimum_distance;
   if (scene.integrator == Integrator::path) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;
@@ -230,6 +262,27 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     frame.emitters = &prepared->emitters->table;
   }
   return prepared;
+}
+
+Exposure::Exposure(const Scene& scene) : scene_(scene), prepared_(prepare(scene)) {
+  slices_ = prepared_->shutter.slices;
+  if (slices_.empty()) slices_.push_back({0, prepared_->frame.samples, 0.5});
+  if (slices_.size() > 1) prepared_.reset();
+}
+
+const PreparedFrame& Exposure::at(int slice) {
+  if (!prepared_ || slice != slice_) {
+    prepared_.reset();  // before the next takes its memory
+    prepared_ = prepare(scene_, slices_[std::size_t(slice)].time);
+    slice_ = slice;
+  }
+  return *prepared_;
+}
+
+std::vector<Pass> Exposure::passes() const {
+  std::vector<Pass> passes;
+  for (const Slice& slice : slices_) passes.push_back({int(passes.size()), slice.first, slice.end});
+  return passes;
 }
 
 }  // namespace lambent

@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "film/shutter.h"
 #include "integrators/prepare_emitters.h"
 
 namespace lambent {
@@ -12,15 +13,43 @@ struct PreparedFrame {
   World world;
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
+  Shutter shutter;  ///< Where something moves; otherwise without slices.
   std::vector<AnyLight> lights;
   std::vector<LightPoint> light_points;
+  Illumination illumination;    ///< The scene's, or what the integrator puts in its place.
+  std::vector<Material> white;  ///< What it puts in the place of the scene's materials; or empty.
   std::vector<MaterialRecord> materials, unpainted;
   std::vector<TextureRecord> textures;
   std::unique_ptr<PreparedEmitters> emitters;  ///< Of paths.
 };
 
-/// Lays a scene out for the kernels; builds its trees.
-std::unique_ptr<PreparedFrame> prepare(const Scene& scene);
+/// Lays a scene out for the kernels; builds its trees. `time`: of the shutter's, from 0 to 1, where something
+/// moves.
+std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time = 0.5);
+
+/// Samples that are taken one after the other: of a slice, from `first` up to `end` in the frame's order.
+struct Pass {
+  int slice, first, end;
+};
+
+/// The frames of a picture: one, or where something moves one for each slice of the shutter's time. They are
+/// alike but for the world. One is kept at a time, and made when it is asked for.
+class Exposure {
+ public:
+  /// The scene must outlive it.
+  explicit Exposure(const Scene& scene);
+  /// Valid until another one is asked for.
+  const PreparedFrame& at(int slice);
+  const std::vector<Slice>& slices() const { return slices_; }
+  /// All samples, slice by slice.
+  std::vector<Pass> passes() const;
+
+ private:
+  const Scene& scene_;
+  std::vector<Slice> slices_;
+  int slice_ = 0;
+  std::unique_ptr<PreparedFrame> prepared_;
+};
 
 /// Point `number` of the pattern in which `count` points lie on a light: each has one of `count` rows and one
 /// of `count` columns of equal width for itself, and they lie alike about the centre.

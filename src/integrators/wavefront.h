@@ -11,6 +11,7 @@
 #include "accel/surface.h"
 #include "integrators/frame.h"
 #include "integrators/paint.h"
+#include "math/random.h"
 
 // All that is done to a packet of hits in one piece of code, so that it stays in registers.
 #define LAMBENT_FLATTEN __attribute__((flatten))
@@ -48,6 +49,9 @@ struct Wavefront {
   int samples_per_pixel() const { return task.end_sample - task.first_sample; }
   std::uint64_t sample_count() const { return std::uint64_t(task.count) * samples_per_pixel(); }
 
+  /// Which of the pattern's samples has a place in the frame's order.
+  int sample_at(int place) const { return frame.order ? frame.order[place] : place; }
+
   void make_room() const {
     if (scratch.samples.capacity > 0) return;
     Scratch::grow(scratch.samples, batch_size);
@@ -67,6 +71,7 @@ struct Wavefront {
       begin(count);
       for (depth = 1; scratch.rays.count > 0; ++depth) {
         trace(depth == 1);
+        if (frame.fog.density > 0) pass_fog();
         sort_into_groups(way_to_shade, background);
         if (depth == 1) counts.eye_hits += hit_count();
         scratch.next_rays.count = 0;
@@ -84,11 +89,14 @@ struct Wavefront {
   LAMBENT_FLATTEN void throw_eye_rays(std::uint64_t first, std::uint32_t count) {
     RayQueue& rays = scratch.rays;
     rays.count = count;
+    const bool has_lens = frame.camera.lens_radius > 0;
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int sample = task.first_sample + int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
-      rays.ox[i] = task.pixels[pixel].x + frame.pattern[sample].x;
-      rays.oy[i] = task.pixels[pixel].y + frame.pattern[sample].y;
+      const int which = sample_at(sample);
+      if (has_lens) choose_lens_point(i, task.pixels[pixel], which);
+      rays.ox[i] = task.pixels[pixel].x + frame.pattern[which].x;
+      rays.oy[i] = task.pixels[pixel].y + frame.pattern[which].y;
       rays.sample[i] = i;
       if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
     }
@@ -100,8 +108,14 @@ struct Wavefront {
       const F x = (F::load(&rays.ox[i]) - half_width) * per_unit,
               y = (half_height - F::load(&rays.oy[i])) * per_unit;
       const Vec3<F> aside = x * right + y * up;
-      const Vec3<F> o = eye + F(camera.spread_of_origins) * aside,
-                    d = normalize(forward + F(camera.spread_of_directions) * aside);
+      Vec3<F> o = eye + F(camera.spread_of_origins) * aside,
+              d = forward + F(camera.spread_of_directions) * aside;
+      if (has_lens) {
+        const Vec3<F> off_centre = F::load(&rays.dx[i]) * right + F::load(&rays.dy[i]) * up;
+        o = o + off_centre;
+        d = F(camera.focus) * d - off_centre;
+      }
+      d = normalize(d);
       o.x.store(&rays.ox[i]), o.y.store(&rays.oy[i]), o.z.store(&rays.oz[i]);
       d.x.store(&rays.dx[i]), d.y.store(&rays.dy[i]), d.z.store(&rays.dz[i]);
       const Vec3<Query> q = number_cast<float>(o);
@@ -114,6 +128,15 @@ struct Wavefront {
     }
     counts.eye += count;
     if (frame.cones) begin_cones(count);
+  }
+
+  /// Where ray i goes through the lens, in scene units from its centre; kept where its direction will be.
+  /// Which point says nothing about where in its pixel the sample lies, nor about the neighbours' points.
+  void choose_lens_point(std::uint32_t i, const Pixel& pixel, int sample) const {
+    const Vec2<double> point =
+        disc_point(random_point(std::uint32_t(sample), hashed(seed_of_pixel(pixel.x, pixel.y) + lens_pair)));
+    scratch.rays.dx[i] = frame.camera.lens_radius * point.x;
+    scratch.rays.dy[i] = frame.camera.lens_radius * point.y;
   }
 
   /// How wide eye rays are: a pixel, or a sample's share of one. Off the picture's middle pixels cover less
@@ -164,6 +187,28 @@ struct Wavefront {
       rays.instance[i] = hit.ids.instance;
       rays.geometry[i] = hit.ids.geometry;
       rays.primitive[i] = hit.ids.primitive;
+    }
+  }
+
+  /// Lays the fog over what rays will bring: the fog's colour is added to their samples, and they count the
+  /// less. Rays that were scattered by chance see no fog: theirs is the light that falls on a surface, which
+  /// would come through no fog either where it was looked for.
+  [[gnu::noinline]] void pass_fog() {
+    constexpr double log2_e = 0x1.71547652b82fep+0;
+    RayQueue& rays = scratch.rays;
+    const FogRecord& fog = frame.fog;
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+      if (rays.density[i] > 0) continue;
+      const double R = rays.R[i], way = max(R + rays.t[i] - fog.start, 0.0) - max(R - fog.start, 0.0);
+      const double share = exp2(-log2_e * fog.density * way);
+      const Rgb brings = (1 - share) * fog.color;
+      add(i, brings);
+      if (task.layer_sums)
+        add_to_layer(i, frame.layers.first_of(rays.way[i]) + frame.layers.fog_layer(), brings);
+      Rgb weight;
+      for (int c = 0; c < color_channels; ++c) weight[c] = rays.weight[c][i] *= share;
+      if (frame.witness)
+        frame.witness->fog(frame.witness->self, {rays.number[i], way, share, brings, weight});
     }
   }
 

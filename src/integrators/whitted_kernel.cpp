@@ -226,8 +226,8 @@ template <bool Seen> struct Work : Wavefront {
     for (int k = 0; k < at.count; ++k) {
       const std::uint64_t number = first_of_batch + rays.sample[at.ray[k]];
       const Pixel& pixel = task.pixels[number / std::uint64_t(samples_per_pixel())];
-      const std::uint64_t sample =
-          std::uint64_t(task.first_sample) + number % std::uint64_t(samples_per_pixel());
+      const auto sample =
+          std::uint64_t(sample_at(task.first_sample + int(number % std::uint64_t(samples_per_pixel()))));
       const std::uint64_t hash = hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y));
       const double turn_u = double(hash >> 32) * 0x1p-32, turn_v = double(hash & 0xffffffff) * 0x1p-32;
       const Vec3<double> N = lane_vector(hits.N, k), G = lane_vector(hits.G, k);

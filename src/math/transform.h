@@ -58,5 +58,12 @@ inline Transform rotation(const Vec3<double>& a, double degrees) {
           {}};
 }
 
+/// The same about an axis through `center`.
+inline Transform rotation_about(const Vec3<double>& center, const Vec3<double>& axis, double degrees) {
+  Transform turn = rotation(axis, degrees);
+  if (!(center == Vec3<double>{})) turn.translation = center - transform_vector(turn, center);
+  return turn;
+}
+
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

@@ -79,6 +79,24 @@ bool planes_in_reach(const Shape& shape, const Transform& world_from_object) {
 
 }  // namespace
 
+Transform placed_at(const Object& object, double time) {
+  Transform placed = object.world_from_object;
+  for (const MotionStep& step : object.motion) {
+    if (step.degrees != 0) placed = rotation_about(step.center, step.axis, time * step.degrees) * placed;
+    else placed = translation(time * step.translate) * placed;
+  }
+  return placed;
+}
+
+bool is_moving(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(),
+                     [](const Object& object) { return !object.motion.empty(); });
+}
+
+double focus_distance(const Camera& camera) {
+  return camera.focus_distance > 0 ? camera.focus_distance : length(camera.target - camera.eye);
+}
+
 bool may_transmit(const Material& material) {
   return !is_black(material.transmit) || material.opacity < 1 ||
          (material.metallic_roughness && material.metallic_roughness->transmission > 0) ||
@@ -176,11 +194,15 @@ std::vector<Diagnostic> validate(const Scene& scene) {
           break;
         }
     }
-    const Transform& t = object.world_from_object;
-    const Bounds box = bounds(shape, t);
-    const bool placed = in_reach(t.x) && in_reach(t.y) && in_reach(t.z) && in_reach(t.translation) &&
-                        (box.empty() || (in_reach(box.lower) && in_reach(box.upper))) &&
-                        planes_in_reach(shape, t);
+    const auto is_in_reach = [&](const Transform& t) {
+      const Bounds box = bounds(shape, t);
+      return in_reach(t.x) && in_reach(t.y) && in_reach(t.z) && in_reach(t.translation) &&
+             (box.empty() || (in_reach(box.lower) && in_reach(box.upper))) && planes_in_reach(shape, t);
+    };
+    bool placed = is_in_reach(object.world_from_object);
+    if (!object.motion.empty())
+      for (const double time : {0.25, 0.5, 0.75, 1.0})
+        placed = placed && is_in_reach(placed_at(object, time));
     if (!placed)
       report(object.place, who + " reaches beyond 1e10 scene units from the origin",
              "choose a larger unit of length: scale the scene down");

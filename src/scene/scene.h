@@ -31,6 +31,8 @@ struct Camera {
   Vec3<double> up{0, 1, 0};
   double fov = 40;
   double height = 2;
+  double aperture = 0;
+  double focus_distance = 0;
 };
 template <>
 inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
@@ -51,7 +53,16 @@ inline constexpr Parameter<Camera> parameters_of<Camera>[] = {
      Kind::direction},
     {"fov", &Camera::fov, {0.01, 179}, "degrees", "Vertical field of view of a perspective camera."},
     {"height", &Camera::height, positive, "scene units", "Height of what an orthographic camera sees."},
+    {"aperture", &Camera::aperture, at_least_zero, "scene units",
+     "Diameter of the lens: what is not in focus is blurred, the more, the larger it is. 0 is a pinhole, "
+     "which "
+     "shows everything sharp."},
+    {"focus_distance", &Camera::focus_distance, at_least_zero, "scene units",
+     "How far in front of the lens, along the way to the target, things are sharp; 0: as far as the target."},
 };
+
+/// Where the camera is in focus: the distance of that plane from the eye.
+double focus_distance(const Camera& camera);
 
 /// Where the samples of a pixel lie.
 enum class Pattern {
@@ -89,12 +100,14 @@ struct ImageSettings {
   int width = 1280, height = 720;
   int samples = 1;
   std::optional<AdaptiveSamples> adaptive;  ///< In place of `samples`.
+  /// Where something moves: at how many moments, at most, it is looked at while the shutter is open.
+  int shutter_slices = 16;
   bool is_adaptive() const { return adaptive && pattern != Pattern::corners; }
   Pattern pattern = Pattern::stratified;
   Filter filter = Filter::box;
   Encoding encoding = Encoding::srgb;
 };
-inline constexpr Range sample_range{1, 65536};
+inline constexpr Range sample_range{1, 65536}, slice_range{1, 4096};
 
 /// What is kept of a picture beside its colours.
 struct FilmSettings {
@@ -128,6 +141,22 @@ inline constexpr Parameter<AmbientOcclusion> parameters_of<AmbientOcclusion>[] =
      "Directions that each sample looks in; a pixel's samples look in different ones."},
     {"distance", &AmbientOcclusion::distance, positive, "scene units",
      "What stands farther away hides nothing."},
+};
+
+/// What lies between the eye and all that it sees, thicker with every step: of a colour there remains the
+/// share exp(-density t) after the way t, and the rest is the fog's.
+struct Fog {
+  Rgb color{0.5, 0.5, 0.5};
+  double density = 0;
+  double start = 0;
+};
+template <>
+inline constexpr Parameter<Fog> parameters_of<Fog>[] = {
+    {"color", &Fog::color, at_least_zero, "", "Its colour, which is all that is seen far away."},
+    {"density", &Fog::density, at_least_zero, "1 / scene units",
+     "How fast it hides things: after 1 / density 37 % of a colour are left. 0 is no fog.", true},
+    {"start", &Fog::start, at_least_zero, "scene units",
+     "It begins where rays have come so far from the eye, over all bounces."},
 };
 
 /// The choices of the lecture that hold for the whole scene.
@@ -416,14 +445,26 @@ struct Shape {
 };
 std::size_t primitive_count(const Shape& shape);
 
+/// A step of an object's motion in the world: a turn about an axis through `center`, or a way.
+struct MotionStep {
+  Vec3<double> axis{0, 1, 0}, center{0, 0, 0};  ///< The axis is of unit length.
+  double degrees = 0;
+  Vec3<double> translate{0, 0, 0};
+};
+
 /// A shape placed in the world.
 struct Object {
   std::string name;
   Place place;
   std::uint32_t shape = 0;               ///< Index into Scene::shapes.
   std::vector<std::uint32_t> materials;  ///< Indices into Scene::materials; one at least.
-  Transform world_from_object;
+  Transform world_from_object;           ///< When the shutter opens.
+  /// What happens to it until the shutter closes: each step at its own constant speed, all at once, applied
+  /// in this order. Empty: it stands still.
+  std::vector<MotionStep> motion;
 };
+/// Where it is at a time of the shutter's, 0 when that opens, 1 when it closes.
+Transform placed_at(const Object& object, double time);
 
 /// A light of the scene: which it is, and what people call it.
 struct Light {
@@ -438,7 +479,7 @@ struct Axis {
 };
 
 /// Who makes the picture of the scene.
-enum class Integrator { whitted, view, path };
+enum class Integrator { whitted, view, path, ambient_occlusion };
 
 struct Scene {
   std::string name;  ///< The input's file name, without its folder.
@@ -451,7 +492,9 @@ struct Scene {
   WhittedSettings whitted;  ///< With a view: the rays that View::rays counts.
   ViewSettings view;
   PathSettings path;
-  Rgb background{0, 0, 0};  ///< What rays see that meet nothing; with an image a factor on it.
+  AmbientOcclusion ambient_occlusion;  ///< Of the integrator; that of the ambient term is in `illumination`.
+  Fog fog;                             ///< With the density 0: none.
+  Rgb background{0, 0, 0};             ///< What rays see that meet nothing; with an image a factor on it.
   /// An index into `textures`: the picture around the scene by longitude and latitude, its middle along -z.
   std::optional<std::uint32_t> background_image;
   double background_turn = 0;    ///< Degrees about the vertical, counter-clockwise from above.
@@ -467,6 +510,9 @@ struct Scene {
   std::vector<std::string> model_cameras;  ///< The names of the cameras that it brings.
   std::optional<Axis> axis;                ///< The model's vertical. Unset: the camera's, through its target.
 };
+
+/// Whether something moves while the shutter is open.
+bool is_moving(const Scene& scene);
 
 /// Whether samples are taken until the noise is low enough.
 inline bool is_progressive(const Scene& scene) {

@@ -23,6 +23,7 @@ Primitives primitives_of(const LightBody& body) {
 
 std::vector<StandingLight> standing_lights(const Scene& scene) {
   std::vector<StandingLight> result;
+  if (scene.integrator == Integrator::ambient_occlusion) return result;  // it shows surfaces alone
   for (std::size_t l = 0; l < scene.lights.size(); ++l)
     with_light(scene.lights[l].light, [&]<class L>(const L& light) {
       if constexpr (HasExtent<L>) {

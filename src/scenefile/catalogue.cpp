@@ -48,6 +48,7 @@ const std::vector<Topic>& catalogue() {
         topic("image", "The image", {f.image}),
         topic("film", "What is kept beside the colours", {f.film}),
         topic("illumination", "The equation's choices for the whole scene", {f.illumination}),
+        topic("fog", "Fog", {f.fog}),
         topic("integrators", "Integrators: how rays are followed", f.integrators),
     };
   }();

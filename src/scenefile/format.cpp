@@ -221,6 +221,8 @@ Format make_format() {
        with(field("turn", FieldType::number, "0", "A turn about the y axis, counter-clockwise from above."),
             {}, "degrees"),
        with(field("color", FieldType::color, "[1, 1, 1]", "A factor on it."), at_least_zero, "")});
+  f.fog = section("fog", "fog: colours fade with the way of the ray that sees them", fields_of<Fog>());
+  f.fog.equation = "exp(-density t) colour + (1 - exp(-density t)) color";
   f.metallic_roughness = section("metallic_roughness", "a material as glTF and modelling programs have it",
                                  fields_of<MetallicRoughness>());
   f.maps = section("maps", "images on a surface", {});
@@ -260,6 +262,10 @@ Format make_format() {
                              "{start, max, error}}: as many as each pixel needs."),
                        sample_range, "")} +
           std::vector{
+              with(field("shutter_slices", FieldType::integer, fmt::to_string(image.shutter_slices),
+                         "Where objects move: at how many moments, at most, they are seen while the shutter "
+                         "is open. No more than there are samples."),
+                   slice_range, ""),
               choice("filter", names_of<Filter>(), text_of(image.filter),
                      "How samples make a pixel: `box` is their mean, `tent` also weighs in those of the "
                      "neighbours."),
@@ -312,11 +318,19 @@ Format make_format() {
               fields_of<PathSettings>());
   path.equation = "L(P, V) = Le(P, V) + integral over the sphere of  f(P, L, V) L(P, L) |N.L| dL";
   path.source = "Kajiya, The rendering equation, SIGGRAPH 1986";
-  f.integrators = {whitted, path, view};
+  Section occlusion =
+      section("ambient_occlusion", "white surfaces under a white, even sky: how open each place is",
+              fields_of<AmbientOcclusion>());
+  occlusion.equation = "A = 1 / pi  integral over the directions L above P of  V(P, L) (N.L)+ dL";
+  occlusion.source =
+      "Zhukov, Iones, Kronin, An ambient light illumination model, Eurographics Workshop on Rendering 1998";
+  f.integrators = {whitted, path, occlusion, view};
   f.integrator = section(
       "integrator", "how rays are followed, and what is shown of them: one of these",
       {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
        field("path", FieldType::section, "", "All light there is, by chance: the rendering equation."),
+       field("ambient_occlusion", FieldType::section, "",
+             "No lights and no colours: how open to the sky each place is."),
        field("view", FieldType::section, "", "Not colours, but what the eye's rays meet first.")});
   f.light = section("light", "a light",
                     {field("name", FieldType::name, "",
@@ -329,18 +343,25 @@ Format make_format() {
                      "own, everything else is plain grey."),
                field("transform", FieldType::transform, "",
                      "Steps that move the object, applied in the order written; a single step may stand "
-                     "without the list.")});
-  f.rotate = section("rotate", "a turn about an axis through the origin",
+                     "without the list."),
+               field("motion", FieldType::motion, "",
+                     "What it does while the shutter is open, from where `transform` has placed it: steps, "
+                     "each at a constant speed.")});
+  f.rotate = section("rotate", "a turn about an axis",
                      std::vector{required("axis", FieldType::axis, "`x`, `y`, `z`, or a direction.")} +
                          fields_of<RotateSettings>());
   f.transform = section(
       "transform", "one step",
       {field("scale", FieldType::factors, "", "A factor, or one for each axis; not 0. Negative ones mirror."),
-       field("rotate", FieldType::section, "",
-             "A right-handed turn about an axis through the origin: {axis, degrees}."),
+       field("rotate", FieldType::section, "", "A right-handed turn about an axis: {axis, degrees, center}."),
        with(field("translate", FieldType::point, "", "How far to move along x, y and z."), {}, "scene units"),
        field("matrix", FieldType::matrix, "",
              "Three rows of four numbers: the linear part and, last in each row, the translation.")});
+  f.motion = section("motion", "one step of a motion",
+                     {field("rotate", FieldType::section, "",
+                            "A turn about an axis, at a constant speed: {axis, degrees, center}."),
+                      with(field("translate", FieldType::point, "", "A straight way along x, y and z."), {},
+                           "scene units")});
   f.top = section(
       "scene", "a scene file",
       {with(required("lambent", FieldType::integer, "The version of the format."), {1, 1}, ""),
@@ -352,6 +373,7 @@ Format make_format() {
        with(field("background", FieldType::background, text_of(Scene{}.background),
                   "What rays see that hit nothing: a color, or {file: NAME} for a picture all around."),
             at_least_zero, ""),
+       field("fog", FieldType::section, "", "What colours fade into with distance. Not given: none."),
        field("lights", FieldType::sections, "", "The lights, in any number."),
        field("materials", FieldType::sections, "", "Materials that objects refer to by name."),
        field("objects", FieldType::sections, "", "What there is to see.")});
@@ -435,6 +457,7 @@ std::string type_name(FieldType type) {
     case FieldType::map:
       return "file name or mapping";
     case FieldType::transform:
+    case FieldType::motion:
       return "step or list of steps";
     case FieldType::section:
       return "mapping";

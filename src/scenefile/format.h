@@ -38,6 +38,7 @@ enum class FieldType {
   background,   // a color or a mapping
   map,          // a file's name or a mapping
   transform,    // a step or a list of steps
+  motion,       // likewise
   section,      // a mapping with fields of its own
   sections,     // a list of such mappings
 };
@@ -64,11 +65,12 @@ struct Section {
 
 struct Format {
   Section top, camera, image, film, samples, adaptive, illumination, attenuation, integrator, material;
-  Section background, ambient_occlusion, maps, map, metallic_roughness;
+  Section background, fog, ambient_occlusion, maps, map, metallic_roughness;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.
   Section transform;      ///< The steps.
+  Section motion;         ///< Those of a motion.
   Section rotate;
 };
 const Format& format();

@@ -106,9 +106,9 @@ at once, with line and column. For completion and checks while you type, point y
 # yaml-language-server: $schema=lambent.schema.json
 ```
 
-Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [image](#image), [film](#film), [illumination](#illumination),
+Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [fog](#fog), [image](#image), [film](#film), [illumination](#illumination),
 [models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
-[transforms](#transforms), [values from the command line](#values-from-the-command-line), [model files](#model-files).
+[transforms](#transforms), [motion](#motion), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
 ## Conventions
 
@@ -147,12 +147,27 @@ sequence, turned in each pixel by a hash of its place), more of them where N.L w
 
 )";
 
+constexpr const char* lens_text =
+    R"(With an `aperture` A the rays of a pixel start all over a lens, a thin one, and meet again where they are in focus: in the plane across the
+view that lies `focus_distance` f from the eye. A point at the depth d is a disc in the picture as large as one of the diameter
+A |d - f| / f would be at the depth d. Which point of the lens a sample takes is a hash of its pixel and number (Owen-scrambled Sobol points, the same on every
+machine): give such pictures some samples, 64 or more.
+
+)";
+
 constexpr const char* background_text =
     R"(A colour, or an image all around the scene, by longitude and latitude (equirectangular): what rays see that meet nothing,
 eye rays and mirror rays alike. It lights nothing. `file: studio` is a dark room with soft lamps, which the program brings and shows
 shining models in. The middle lies along -z, u grows to the right as seen from inside, the top row is straight up.
 
     background: {file: venice_sunset_1k.hdr, turn: 90}
+
+)";
+
+constexpr const char* fog_text =
+    R"(is what the eye gets of a colour along a ray of the length t. Rays from the eye see it, and mirrored and refracted ones on each of their ways. What
+meets nothing goes without end, and is wholly the fog's colour, whatever the background. Light on its way to surfaces goes through no fog: shadow rays,
+and what `path` scatters by chance. The lecture's 1/R, by which the ambient term fades, is another matter (`ambient_attenuation`).
 
 )";
 
@@ -191,6 +206,13 @@ way round and the height, boxes, rectangles and polygons those of the plane they
 
 )";
 
+constexpr const char* occlusion_integrator_text =
+    R"(`integrator: {ambient_occlusion: {}}` shows A alone, in grey: as if all surfaces were white and opaque, and an even, white sky
+their only light. The materials' colours, the lights and the background do not count; cut-outs (`alpha: mask`), `one_sided`, normal and bump
+maps do. Directions are chosen as for the ambient term (above), `rays` of them for each sample. `image.samples` is 64 for it where not given.
+
+)";
+
 constexpr const char* view_text =
     R"(`lambent render scene.yaml --view normals` shows a view of any scene, whatever its `integrator` says. Each pixel is the mean
 over its samples of a colour made of what the eye's ray meets first; where it meets nothing it is black:
@@ -222,6 +244,19 @@ file's stands in for it; an object's `material` replaces them all. A file's came
 A rectangle's width runs horizontally: for a floor (`normal: [0, 1, 0]`) `size: [w, h]` is w along x and h along z; for a wall
 that faces z it is w along x and h along y. A box, a rectangle and a polygon become triangles. The caps of a
 cylinder or cone face outward.
+
+)";
+
+constexpr const char* motion_text =
+    R"(An object with a `motion` is blurred by what it does while the shutter is open. It begins where `transform` has placed it, and ends when all steps
+have been done to that, in the world and in the order written; each step goes on all the time, at a constant speed. A wheel of radius 1 that rolls a quarter of a turn:
+
+    motion: [{rotate: {axis: z, degrees: -90, center: [0, 1, 0]}}, {translate: [1.5708, 0, 0]}]
+
+The samples of each pixel are dealt over the time: over `image.shutter_slices` moments, or as many as there are samples. For each moment the scene is laid out anew and
+its samples are taken, so many slices cost the building of as many trees, and a still scene costs nothing. What moves by more than a few pixels from one moment to
+the next shows in steps: give more samples and slices. The order of the samples is the same in all pixels, so there is no noise. Views show the middle of the time; adaptive
+samples and `pattern: corners` do not go together with motion.
 
 )";
 
@@ -277,8 +312,9 @@ std::string scene_manual() {
       "## Camera\n\nThe camera looks from `eye` to `target`; `up` says which way is up in the picture and "
       "need not be at a right "
       "angle to the view, only not along it.\n\n" +
-      table(f.camera.fields);
+      table(f.camera.fields) + lens_text;
   text += "## Background\n\n" + std::string(background_text) + table(f.background.fields);
+  text += "## Fog\n\n    " + f.fog.equation + "\n\n" + fog_text + table(f.fog.fields);
   text += "## Image\n\n" + table(f.image.fields);
   text += "At most 2^28 pixels. `samples` belongs to `pattern: stratified`.\n\n";
   text +=
@@ -308,7 +344,8 @@ std::string scene_manual() {
       "brings the attenuations "
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
-  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + view_text;
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) +
+          occlusion_integrator_text + view_text;
   text +=
       "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
       " - {name: lamp, point: "
@@ -335,6 +372,7 @@ std::string scene_manual() {
       "{translate: [1, 0, 0]}]` makes "
       "twice as large first and moves then.\n\n" +
       table(f.transform.fields) + "A `rotate`:\n\n" + table(f.rotate.fields);
+  text += "## Motion\n\n" + std::string(motion_text) + table(f.motion.fields);
   text += command_line_text;
   text += model_files_text;
   return text;

@@ -541,6 +541,7 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
   if (const Value* name = values->find("name")) reader_.text(*name, "text", object.name);
   if (const Value* transform = values->find("transform"))
     read_transform(reader_, *transform, object.world_from_object);
+  if (const Value* motion = values->find("motion")) read_motion(reader_, *motion, object.motion);
 
   placed_shapes_.clear();
   file_ = nullptr;

@@ -53,6 +53,9 @@ class ObjectReader {
 /// The transform of `value`: one step or a list of steps. False if something was wrong.
 bool read_transform(Reader& reader, const Value& value, Transform& out);
 
+/// A motion: one step or a list of steps, added to `out`. False if something was wrong.
+bool read_motion(Reader& reader, const Value& value, std::vector<MotionStep>& out);
+
 /// Files that a scene names: where they are looked for, and what of them may be read.
 struct Files {
   std::string folder;

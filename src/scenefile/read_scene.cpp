@@ -56,6 +56,10 @@ void read_camera(Reader& reader, const Value& value, Scene& scene) {
          fmt::format("{} has no effect: the camera is {}", unused->label, text_of(scene.camera.projection)),
          flat ? "the size of an orthographic picture is its 'height'"
               : "the size of a perspective picture is its 'fov'");
+  const Value* focus = values->find("focus_distance");
+  if (focus != nullptr && scene.camera.focus_distance > 0 && scene.camera.aperture == 0)
+    warn(reader, scene, *focus->key, "'focus_distance' has no effect: the camera is a pinhole",
+         "'aperture', the diameter of the lens, blurs what is not in focus");
 }
 
 void read_samples(Reader& reader, const Value& value, ImageSettings& image) {
@@ -104,6 +108,8 @@ void read_image(Reader& reader, const Value& value, ImageSettings& image) {
       image.pattern = Pattern::stratified;
   }
   if (const Value* encoding = values->find("encoding")) reader.choice(*encoding, image.encoding);
+  if (const Value* slices = values->find("shutter_slices"))
+    reader.integer(*slices, slice_range, image.shutter_slices);
   const Value* size = values->find("size");
   if (size == nullptr) return;
   const auto sides = reader.list(*size, "side");
@@ -253,17 +259,44 @@ void read_integrator(Reader& reader, const Value& value, Scene& scene) {
   scene.integrator = *meaning_of<Integrator>(chosen->key->text);
   if (scene.integrator == Integrator::view) read_view(reader, *chosen, scene);
   if (scene.integrator == Integrator::path) read_settings(reader, "path", *chosen, scene.path);
+  if (scene.integrator == Integrator::ambient_occlusion)
+    read_settings(reader, "ambient_occlusion", *chosen, scene.ambient_occlusion);
 }
 
-/// Of path tracing: many samples where none are given, spread over the pixel whatever the pattern.
-void settle_samples(Reader& reader, const Value* given, ImageSettings& image) {
+/// Of integrators that choose directions by chance or by hash: many samples where none are given. Those of
+/// paths are spread over the pixel whatever the pattern.
+void settle_samples(Reader& reader, const Value* given, Integrator integrator, ImageSettings& image) {
   constexpr int usual = 64;
   const Node* samples = given != nullptr ? value_of(*given->node, "samples") : nullptr;
   if (samples == nullptr) image.samples = usual;
+  if (integrator != Integrator::path) return;
   if (image.adaptive && samples != nullptr)
     reader.error(*samples, "adaptive samples are for integrators without noise",
                  "for 'path' write integrator: {path: {until: 0.01}}: samples until the noise is 1 %");
   image.pattern = Pattern::stratified;
+}
+
+/// Where something moves, the samples of each pixel are dealt over the time that the shutter is open.
+void check_motion(Reader& reader, const Value* given, Scene& scene) {
+  if (!is_moving(scene) || scene.integrator == Integrator::view) return;
+  const auto find = [&](const char* key) { return given != nullptr ? value_of(*given->node, key) : nullptr; };
+  const char* remedy = "give a number of them for all pixels: samples: 64";
+  if (const Node* samples = find("samples"); scene.image.is_adaptive() && samples != nullptr)
+    reader.error(*samples, "adaptive samples do not see what moves", remedy);
+  else if (const Node* pattern = find("pattern");
+           scene.image.pattern == Pattern::corners && pattern != nullptr)
+    reader.error(*pattern, "'pattern: corners' takes one sample of each corner, which sees nothing move",
+                 "leave the pattern out, and give samples: 64");
+  else if (scene.image.samples == 1 || scene.image.shutter_slices == 1) {
+    Diagnostic warning;
+    warning.severity = Severity::warning;
+    warning.place.file = reader.document().sources[0].name;
+    warning.message = scene.image.samples == 1
+                          ? "nothing is blurred by its motion: each pixel has one sample"
+                          : "nothing is blurred by its motion: the shutter has one slice";
+    warning.hint = scene.image.samples == 1 ? "image: {samples: 64}, or --samples 64" : "";
+    scene.warnings.push_back(std::move(warning));
+  }
 }
 
 /// A name that may be given once only; the default where none is given.
@@ -418,6 +451,9 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         reader.table(*film, f.film.fields, scene.film);
     if (const Value* v = top->find("illumination")) read_illumination(reader, *v, scene.illumination);
     if (const Value* v = top->find("background")) read_background(reader, *v, files, scene);
+    if (const Value* v = top->find("fog"))
+      if (const auto fog = reader.mapping(*v, f.fog.fields, "the fog"))
+        reader.table(*fog, f.fog.fields, scene.fog);
     if (const Value* v = top->find("lights"))
       if (const auto lights = reader.list(*v, "light")) {
         std::map<std::string, int> taken;
@@ -432,7 +468,9 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
         for (std::size_t i = 0; i < objects->size(); ++i)
           object_reader.object((*objects)[i], fmt::format("object {}", i + 1));
       }
-    if (scene.integrator == Integrator::path) settle_samples(reader, top->find("image"), scene.image);
+    if (scene.integrator == Integrator::path || scene.integrator == Integrator::ambient_occlusion)
+      settle_samples(reader, top->find("image"), scene.integrator, scene.image);
+    check_motion(reader, top->find("image"), scene);
     if (scene.integrator == Integrator::view && scene.film.layers)
       reader.error(*value_of(*top->find("film")->node, "layers"), "a view has no layers",
                    "layers are what the colours of 'whitted' are made of; leave out one of the two");
@@ -474,9 +512,18 @@ Model import_scene(const std::string& path, const ImportOptions& import) {
   model.textures = std::move(scene.textures);
   model.shapes = std::move(scene.shapes);
   model.warnings = std::move(scene.warnings);
-  for (Object& object : scene.objects)
+  for (Object& object : scene.objects) {
+    if (!object.motion.empty()) {
+      Diagnostic warning;
+      warning.severity = Severity::warning;
+      warning.place = object.place;
+      warning.message = "'" + object.name + "' stands still where another scene shows it";
+      warning.hint = "give the object that shows this scene a 'motion'";
+      model.warnings.push_back(std::move(warning));
+    }
     model.objects.push_back(
         {std::move(object.name), object.shape, object.world_from_object, std::move(object.materials)});
+  }
   for (Material& material : scene.materials) {
     material.model = model_of(scene, material);  // as the file means it
     model.materials.push_back(std::move(material));

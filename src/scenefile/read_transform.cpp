@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "scenefile/nearest.h"
 #include "scenefile/read_objects.h"
 #include "scenefile/shape_settings.h"
 
@@ -25,7 +26,7 @@ bool scale_step(Reader& reader, const Value& value, const Field& field, Transfor
   return true;
 }
 
-bool rotate_step(Reader& reader, const Value& value, Transform& out) {
+bool read_turn(Reader& reader, const Value& value, MotionStep& out) {
   const auto values = reader.mapping(value, format().rotate.fields, "a rotate");
   if (!values) return false;
   const std::size_t before = reader.count();
@@ -44,7 +45,16 @@ bool rotate_step(Reader& reader, const Value& value, Transform& out) {
   RotateSettings settings;
   reader.table(*values, format().rotate.fields, settings);
   if (reader.count() != before || values->unknown_keys) return false;
-  out = rotation(normalize(axis), settings.degrees);
+  out.axis = normalize(axis);
+  out.degrees = settings.degrees;
+  out.center = settings.center;
+  return true;
+}
+
+bool rotate_step(Reader& reader, const Value& value, Transform& out) {
+  MotionStep turn;
+  if (!read_turn(reader, value, turn)) return false;
+  out = rotation_about(turn.center, turn.axis, turn.degrees);
   return true;
 }
 
@@ -79,24 +89,30 @@ bool matrix_step(Reader& reader, const Value& value, const Field& field, Transfo
   return true;
 }
 
-bool step(Reader& reader, const Value& value, Transform& out) {
-  const auto& fields = format().transform.fields;
-  const auto values = reader.mapping(value, fields, "a transform");
-  if (!values) return false;
-  if (values->unknown_keys) return false;
+/// The one key of a step, and what stands behind it.
+std::optional<Value> only_key(Reader& reader, const Value& value, const std::vector<Field>& fields,
+                              const std::string& what) {
+  const auto values = reader.mapping(value, fields, what);
+  if (!values || values->unknown_keys) return {};
   if (values->values.empty()) {
-    reader.error(value.place(), "this step does nothing",
-                 "a step is one of: scale, rotate, translate, matrix");
-    return false;
+    reader.error(value.place(), "this step does nothing", "a step is one of: " + join(names_of(fields)));
+    return {};
   }
   if (values->values.size() > 1) {
     reader.error(
         *values->values[1].key,
         values->values[1].label + " stands in one step with " + values->values[0].label,
         "steps are elements of a list, because their order matters: [{scale: 2}, {translate: [1, 0, 0]}]");
-    return false;
+    return {};
   }
-  const Value& one = values->values[0];
+  return values->values[0];
+}
+
+bool step(Reader& reader, const Value& value, Transform& out) {
+  const auto& fields = format().transform.fields;
+  const auto only = only_key(reader, value, fields, "a transform");
+  if (!only) return false;
+  const Value& one = *only;
   const Field& field = *find(fields, one.key->text);
   if (field.name == "scale") return scale_step(reader, one, field, out);
   if (field.name == "rotate") return rotate_step(reader, one, out);
@@ -105,6 +121,15 @@ bool step(Reader& reader, const Value& value, Transform& out) {
   if (!reader.vector(one, limits(field), by)) return false;
   out = translation(by);
   return true;
+}
+
+bool motion_step(Reader& reader, const Value& value, MotionStep& out) {
+  const auto& fields = format().motion.fields;
+  const auto only = only_key(reader, value, fields, "a motion");
+  if (!only) return false;
+  return only->key->text == "rotate"
+             ? read_turn(reader, *only, out)
+             : reader.vector(*only, limits(*find(fields, "translate")), out.translate);
 }
 
 }  // namespace
@@ -125,6 +150,20 @@ bool read_transform(Reader& reader, const Value& value, Transform& out) {
   }
   if (good) out = all;
   return good;
+}
+
+bool read_motion(Reader& reader, const Value& value, std::vector<MotionStep>& out) {
+  const std::size_t before = reader.count();
+  const auto add = [&](const Value& one) {
+    MotionStep step;
+    if (motion_step(reader, one, step)) out.push_back(step);
+  };
+  if (value.node->kind == Node::Kind::mapping) {
+    add(value);
+  } else if (const auto steps = reader.list(value, "step")) {
+    for (const Value& one : *steps) add(one);
+  }
+  return reader.count() == before;
 }
 
 }  // namespace lambent

@@ -108,6 +108,8 @@ Json value_of_type(const Field& field) {
       return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("map")}}};
     case FieldType::transform:
       return {{"oneOf", {reference("step"), array_of(reference("step"), 0)}}};
+    case FieldType::motion:
+      return {{"oneOf", {reference("motion_step"), array_of(reference("motion_step"), 0)}}};
     case FieldType::section:
       return reference(field.name.c_str());
     case FieldType::sections:
@@ -179,6 +181,7 @@ std::string scene_schema() {
   definitions["object"] = std::move(object);
   definitions["ambient_occlusion"] = object_of(f.ambient_occlusion);
   definitions["background"] = object_of(f.background);
+  definitions["fog"] = object_of(f.fog);
   definitions["metallic_roughness"] = object_of(f.metallic_roughness);
   definitions["maps"] = object_of(f.maps);
   definitions["map"] = object_of(f.map);
@@ -187,6 +190,8 @@ std::string scene_schema() {
   definitions["rotate"] = object_of(f.rotate);
   definitions["step"] = object_of(f.transform);
   definitions["step"]["oneOf"] = one_of_keys(names_of(f.transform.fields));
+  definitions["motion_step"] = object_of(f.motion);
+  definitions["motion_step"]["oneOf"] = one_of_keys(names_of(f.motion.fields));
   return schema.dump(2) + "\n";
 }
 

@@ -62,6 +62,7 @@ inline constexpr Parameter<AttenuationSettings> parameters_of<AttenuationSetting
 /// A turn in a list of transforms.
 struct RotateSettings {
   double degrees = 0;
+  Vec3<double> center{0, 0, 0};
 };
 template <>
 inline constexpr Parameter<RotateSettings> parameters_of<RotateSettings>[] = {
@@ -71,6 +72,13 @@ inline constexpr Parameter<RotateSettings> parameters_of<RotateSettings>[] = {
      "degrees",
      "The angle; counter-clockwise seen from the axis' tip.",
      true},
+    {"center",
+     &RotateSettings::center,
+     {},
+     "scene units",
+     "A point of the axis, which stays where it is.",
+     false,
+     Kind::point},
 };
 
 }  // namespace lambent

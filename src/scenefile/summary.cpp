@@ -63,9 +63,14 @@ void count(SceneSummary& summary, const std::vector<Plane>& planes) { summary.pl
 
 std::string camera_text(const Camera& camera) {
   const bool flat = camera.projection == Projection::orthographic;
-  return fmt::format("{}, {}, from {} to {}", text_of(camera.projection),
-                     flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
-                     plain(camera.eye), plain(camera.target));
+  std::string text =
+      fmt::format("{}, {}, from {} to {}", text_of(camera.projection),
+                  flat ? "height " + plain(camera.height) : "fov " + plain(camera.fov) + " degrees",
+                  plain(camera.eye), plain(camera.target));
+  if (camera.aperture > 0)
+    text +=
+        fmt::format(", aperture {}, in focus {} away", plain(camera.aperture), plain(focus_distance(camera)));
+  return text;
 }
 
 std::string integrator_summary(const Scene& scene) {
@@ -75,6 +80,8 @@ std::string integrator_summary(const Scene& scene) {
                                           : whitted.colored_shadows ? "coloured"
                                                                     : "opaque");
   if (scene.integrator == Integrator::path) return fmt::format("path, max_depth {}", scene.path.max_depth);
+  if (scene.integrator == Integrator::ambient_occlusion)
+    return fmt::format("ambient_occlusion, {} rays for each sample", scene.ambient_occlusion.rays);
   if (scene.integrator != Integrator::view) return tracing;
   const std::string view = "view of " + text_of(scene.view.show);
   if (scene.view.show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view.light);
@@ -148,6 +155,7 @@ SceneSummary summarize(const ScenePtr& pointer) {
     text += object.materials.size() == 1 ? "material " + scene.materials[object.materials[0]].name
                                          : std::to_string(object.materials.size()) + " materials";
     if (!is_identity(object.world_from_object)) text += ", transformed";
+    if (!object.motion.empty()) text += ", moving";
     summary.shown += primitive_count(shape);
     summary.objects.push_back(
         {object.name, kind_of(shape), object.place, primitive_count(shape), std::move(text)});

@@ -20,6 +20,9 @@ std::string integrator_text(const Scene& scene) {
       break;
     case Integrator::path:
       return fmt::format("{{path: {{{}}}}}", settings_text(scene.path, Wanted::all));
+    case Integrator::ambient_occlusion:
+      return fmt::format("{{ambient_occlusion: {{{}}}}}",
+                         settings_text(scene.ambient_occlusion, Wanted::all));
     case Integrator::view: {
       const std::string view = settings_text(scene.view, Wanted::what_differs);
       return fmt::format("{{view: {{show: {}, {}{}{}}}}}", text_of(scene.view.show), view,

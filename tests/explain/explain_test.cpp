@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 
 #include "explain/derivation.h"
 #include "explain/terms.h"
@@ -42,12 +43,12 @@ TEST(Explain, TheTermsSumToTheRenderedPixelBitForBit) {
     const std::string yaml = test::random_scene(seed, 24, 18, std::to_string(1 + seed % 5));
     const ScenePtr scene = parse_scene(yaml);
     const Image image = render(scene).image;
-    const auto prepared = prepare(*scene);
+    Exposure exposure(*scene);
     std::mt19937 random(seed);
     for (int i = 0; i < 100; ++i, ++pixels) {
       const int x = std::uniform_int_distribution<int>(0, 23)(random),
                 y = std::uniform_int_distribution<int>(0, 17)(random);
-      const Derivation d = derive(scene, *prepared, choose_kernel(""), x, y, prepared->frame.samples);
+      const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
       ASSERT_NO_FATAL_FAILURE(expect_same_bits(
           image.pixel(x, y), {d.pixel, d.pixel + 3},
           "seed " + std::to_string(seed) + ", pixel " + std::to_string(x) + "," + std::to_string(y)));
@@ -65,10 +66,10 @@ TEST(Explain, AFormulaHasTheBitsOfTheRenderersTerm) {
   std::size_t terms = 0;
   for (unsigned seed = 200; seed < 230; ++seed) {
     const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "1"));
-    const auto prepared = prepare(*scene);
+    Exposure exposure(*scene);
     for (int y = 0; y < 12; ++y)
       for (int x = 0; x < 16; ++x) {
-        const Derivation d = derive(scene, *prepared, choose_kernel(""), x, y, prepared->frame.samples);
+        const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
         for (const DerivedRay& ray : d.rays) {
           if (!ray.hits) continue;
           EXPECT_EQ(ray.ambient, ambient_formula(d, ray).value);
@@ -141,10 +142,13 @@ TEST(Explain, TheJsonHasAllThatThePixelIsMadeOf) {
         std::map<unsigned, Json> rays;
         collect(sample["ray"], rays);
         Triple color{};
+        std::set<unsigned> through_fog;
         for (const Json& number : sample["order"]) {
           const Json& ray = rays.at(number.get<unsigned>());
-          const Triple brings = color_of(ray, json["background"]);
-          for (std::size_t c = 0; c < 3; ++c) color[c] += triple(ray["weight"])[c] * brings[c];
+          const bool is_fog = ray.contains("fog") && through_fog.insert(number).second;
+          const Triple weight = triple(ray.contains("fog") && !is_fog ? ray["fog"]["weight"] : ray["weight"]),
+                       brings = is_fog ? triple(ray["fog"]["brings"]) : color_of(ray, json["background"]);
+          for (std::size_t c = 0; c < 3; ++c) color[c] += weight[c] * brings[c];
         }
         for (std::size_t c = 0; c < 3; ++c) sum[c] += color[c];
       }

@@ -239,7 +239,8 @@ TEST(ReaderMessages, Values) {
 }
 
 TEST(ReaderMessages, Structure) {
-  EXPECT_EQ(only(head + "integrator: {}\n"), "'integrator' names none | it is one of: whitted, path, view");
+  EXPECT_EQ(only(head + "integrator: {}\n"),
+            "'integrator' names none | it is one of: whitted, path, ambient_occlusion, view");
   EXPECT_EQ(only(head + "lights: {}\n"), "'lights' must be a list, not a mapping | ");
   EXPECT_EQ(only(head + "lights: [{name: a}]\n"),
             "this light has no kind | it is one of: " + join(names_of(format().lights)));
@@ -270,7 +271,7 @@ TEST(ReaderMessages, Structure) {
   EXPECT_EQ(
       only("- 1\n- 2\n"),
       "the scene must be a mapping, not a list | its keys are: lambent, camera, image, film, illumination, "
-      "integrator, background, lights, materials, objects");
+      "integrator, background, fog, lights, materials, objects");
   EXPECT_EQ(
       only(head + "---\n" + head),
       "a second YAML document begins here | a scene file holds one; remove the line '---' and what follows");
