@@ -206,6 +206,30 @@ way round and the height, boxes, rectangles and polygons those of the plane they
 
 )";
 
+constexpr const char* path_text =
+    R"(`integrator: {path: {}}` solves the rendering equation: light reaches a surface from lights, from the background, from surfaces
+that shine, and from all other surfaces. `lambent render scene.yaml --integrator path` shows any scene so.
+
+- **The same lights.** A light of colour Il gives Il Kd (N.L)+ / r^2 on a matt surface, as in the model `attenuated`; so a point
+  light's radiant intensity is pi Il. Lights without extent fade as `illumination.attenuation` says, if it is given, else with 1/r^2.
+  There is no ambient term: its place is taken by the light that comes by way of other surfaces. What has `emission`, and the
+  background, light everything.
+- **The same materials**, as they scatter light. Kd is Lambert's f = Kd / pi. Ks and n are a lobe that conserves energy: Phong's with the factor
+  (n + 2) / (2 pi) (Lafortune and Willems 1994), or Blinn's about N.H for models that have it. `reflect` and `transmit` are perfect mirrors
+  and glass. Where the four add up to more than 1 they are scaled down together, as nothing shines brighter than it is lit. `metallic_roughness` is GGX with
+  Fresnel's reflection, a matt layer below, and a clear coat, made up for the light that microfacets scatter more than once.
+  What is not opaque (`opacity`) is there by that chance.
+- **Samples.** `image.samples` is the number of paths for each pixel, 64 where not given. `until: 0.01` (or `--until 0.01`) goes on
+  until the noise is 1 % of the mean luminance; `--stats` tells the noise that is left. Adaptive samples are not for paths.
+- **What costs noise**: light that paths meet by chance only. That is the light of lamps behind glass, caustics and small mirrors' light on
+  walls; of a point light behind glass nothing arrives at all, as nothing can meet it. `clamp` takes the specks, and light with them.
+- The same bits whatever the machine and its threads, as all else; another `seed` makes another picture of the same.
+
+With `film: {layers: true}` there are, for each light, for the surfaces that shine and for the sky, the light that comes directly from there
+and the light that comes by way of other surfaces.
+
+)";
+
 constexpr const char* occlusion_integrator_text =
     R"(`integrator: {ambient_occlusion: {}}` shows A alone, in grey: as if all surfaces were white and opaque, and an even, white sky
 their only light. The materials' colours, the lights and the background do not count; cut-outs (`alpha: mask`), `one_sided`, normal and bump
@@ -345,7 +369,7 @@ std::string scene_manual() {
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
   text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) +
-          occlusion_integrator_text + view_text;
+          path_text + occlusion_integrator_text + view_text;
   text +=
       "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
       " - {name: lamp, point: "
