@@ -41,7 +41,15 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   void begin_batch(std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) scratch.rays.density[i] = 0;
+    auto pixel = std::uint32_t(first_of_batch / std::uint64_t(samples_per_pixel()));
+    int sample = task.first_sample + int(first_of_batch % std::uint64_t(samples_per_pixel()));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      scratch.rays.density[i] = 0;
+      seeds[i] =
+          hashed(seed_of_pixel(task.pixels[pixel].x, task.pixels[pixel].y) + std::uint64_t(frame.path.seed));
+      numbers[i] = std::uint32_t(sample_at(sample));
+      if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
+    }
     if constexpr (Seen) {
       clear_layers(count);
       if (frame.witness)
@@ -65,6 +73,10 @@ template <bool Seen> struct Work : Wavefront {
 
   // ---- random numbers
 
+  // Of each sample of the batch: what its random numbers begin with, and which of its pixel's it is.
+  std::uint64_t seeds[batch_size]{};
+  std::uint32_t numbers[batch_size]{};
+
   /// Of each vertex of a path: pairs of dimensions, each for its purpose.
   enum Pair : int { choices, light_point, direction, chances, pairs_per_vertex };
 
@@ -74,16 +86,10 @@ template <bool Seen> struct Work : Wavefront {
   };
   [[gnu::noinline]] Draw draw(const Lanes& at, Pair pair) const {
     double x[lanes], y[lanes];
+    const auto dimension = std::uint64_t((depth - 1) * pairs_per_vertex + pair);
     for (int k = 0; k < lanes; ++k) {
-      const std::uint64_t number = first_of_batch + scratch.rays.sample[at.ray[k]];
-      const Pixel& pixel = task.pixels[number / std::uint64_t(samples_per_pixel())];
-      const auto sample =
-          std::uint32_t(task.first_sample) + std::uint32_t(number % std::uint64_t(samples_per_pixel()));
-      const std::uint64_t place =
-          hashed(hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y)) +
-                 std::uint64_t(frame.path.seed));
-      const Vec2<double> point =
-          random_point(sample, hashed(place + std::uint64_t((depth - 1) * pairs_per_vertex + pair)));
+      const std::uint32_t i = scratch.rays.sample[at.ray[k]];
+      const Vec2<double> point = random_point(numbers[i], hashed(seeds[i] + dimension));
       x[k] = point.x, y[k] = point.y;
     }
     return {F::load(x), F::load(y)};

@@ -11,6 +11,7 @@
 #include "accel/surface.h"
 #include "integrators/frame.h"
 #include "integrators/paint.h"
+#include "math/directions.h"
 #include "math/random.h"
 
 // All that is done to a packet of hits in one piece of code, so that it stays in registers.
@@ -133,8 +134,9 @@ struct Wavefront {
   /// Where ray i goes through the lens, in scene units from its centre; kept where its direction will be.
   /// Which point says nothing about where in its pixel the sample lies, nor about the neighbours' points.
   void choose_lens_point(std::uint32_t i, const Pixel& pixel, int sample) const {
-    const Vec2<double> point =
-        disc_point(random_point(std::uint32_t(sample), hashed(seed_of_pixel(pixel.x, pixel.y) + lens_pair)));
+    const Vec2<double> at =
+        random_point(std::uint32_t(sample), hashed(seed_of_pixel(pixel.x, pixel.y) + lens_pair));
+    const Vec2<double> point = on_disc(at.x, at.y);
     scratch.rays.dx[i] = frame.camera.lens_radius * point.x;
     scratch.rays.dy[i] = frame.camera.lens_radius * point.y;
   }

@@ -58,18 +58,5 @@ constexpr std::uint64_t seed_of_pixel(std::int32_t x, std::int32_t y) {
   return hashed(std::uint64_t(std::uint32_t(x)) << 32 | std::uint32_t(y));
 }
 
-/// A point of the unit disc for a point of the unit square; equal areas stay equal, and what lies together
-/// stays together (Shirley and Chiu, A low distortion map between disk and square, Journal of Graphics Tools
-/// 2(3), 1997).
-inline Vec2<double> disc_point(const Vec2<double>& square) {
-  const double a = 2 * square.x - 1, b = 2 * square.y - 1;
-  if (a == 0 && b == 0) return {0, 0};
-  // The quarter that a reaches farther in is turned by up to 45 degrees, the other from the y axis back.
-  const bool by_a = abs(a) > abs(b);
-  const double radius = by_a ? a : b, degrees = by_a ? 45 * (b / a) : 90 - 45 * (a / b);
-  const auto [sine, cosine] = sincos_degrees(degrees);
-  return {radius * cosine, radius * sine};
-}
-
 }  // namespace LAMBENT_ISA
 }  // namespace lambent

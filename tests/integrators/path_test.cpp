@@ -153,8 +153,9 @@ objects:
   - {disc: {center: [0, 1, 0], normal: [0, 1, 0], radius: 9}, material: {diffuse: 0, opacity: 0.3333333333}}
 )";
   // Il Kd / r^2 = 4 * 0.5 / 4 = 0.5, of which two thirds.
+  // Seen within 0.05 of the point below the light: (N.L) / r^2 falls by 1 - 1.5 (0.05 / 2)^2 at the most.
   const Mean got = mean_of(shown(yaml).image);
-  EXPECT_NEAR(got.mean, 0.5 * 2 / 3, 1e-4);
+  EXPECT_NEAR(got.mean, 0.5 * 2 / 3, 0.001 * 0.5 * 2 / 3);
 }
 
 const std::string room = R"(lambent: 1
@@ -264,7 +265,7 @@ TEST(Path, ExplainsEverySampleBitForBit) {
               1e-12 * ray.search->brings[c]);
       }
     }
-  EXPECT_GT(searches, 500u);
+  EXPECT_GT(searches, 400u);
   EXPECT_GT(finds, 50u);
 }
 
