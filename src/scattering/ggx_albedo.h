@@ -1,6 +1,16 @@
 #pragma once
 // How much GGX reflects in all: of light from everywhere, seen from one direction, or from all on average.
+//
+// The numbers are our own, integrated and fitted by script/scattering_tables. With S = S(V) of ggx.h and
+// s = sqrt(N.V / S), in which the dip at N.V near alpha looks alike for all alpha,
+//
+//   E = sum of E_ij s^i roughness^j,     B = E (1 - S h)^5,  h = sum of h_ij s^i roughness^j
+//
+// Glass loses of that the share T, a table by N.V, the roughness and eta: E_glass = 1 - T (1 - E).
 
+#include <type_traits>
+
+#include "scattering/albedo_tables.h"
 #include "scattering/ggx.h"
 
 namespace lambent {
@@ -13,57 +23,105 @@ template <class F> struct GgxAlbedo {
   F with(const F& F0, const F& F90) const { return F0 * (all - grazing) + F90 * grazing; }
 };
 
-namespace ggx_fits {
-inline constexpr double E_of_cosine[9][7] = {
-    {1.00438811, -3.8103749e-05, 0.000179886929, 0.00430326913, -0.0228963488, 0.0354918243, -0.0171668962},
-    {-0.788960164, -0.322906442, 0.119433928, -15.6333329, 92.2379676, -141.48289, 65.8876622},
-    {13.8745977, 0.158591087, 85.1617436, -152.134547, -727.53589, 1613.47247, -839.72646},
-    {-99.9464694, 47.7444526, -1323.73217, 4741.81482, -3039.15774, -3209.27343, 2907.37557},
-    {365.159488, -322.077978, 6950.97529, -28138.1416, 35496.5273, -13002.2996, -1404.39061},
-    {-748.892878, 842.730332, -16859.5883, 71409.9257, -104655.522, 59825.2948, -9739.77458},
-    {871.498376, -1062.2914, 20824.4748, -90202.5294, 140078.262, -90185.4809, 19614.9771},
-    {-537.66989, 645.915837, -12748.7635, 55936.1236, -88998.8038, 59976.1351, -14245.3137},
-    {136.76207, -151.714913, 3069.54713, -13570.55, 21733.1888, -14858.138, 3635.63946}};
-inline constexpr double h_of_cosine[6][6] = {
-    {5.52507538, -26.9237742, 75.1628238, -115.964977, 90.1477782, -27.5001036},
-    {-109.138351, 804.433137, -2270.88946, 3092.21362, -2042.92619, 526.401181},
-    {509.78804, -3411.92991, 8450.04557, -9644.81676, 4991.19478, -894.045045},
-    {-886.675508, 5246.45777, -10452.2005, 7485.28952, -24.1480559, -1367.70946},
-    {669.361571, -3357.83885, 4228.0002, 2208.99425, -7140.28675, 3388.73872},
-    {-187.869226, 746.351329, -36.1525092, -3007.82425, 4104.25766, -1616.67579}};
-inline constexpr double average_E[8] = {0.999681967, 0.0217212037, -0.31110643, 2.20776135,
-                                        -12.2233804, 20.6665499,   -15.4487382, 4.50090862};
-inline constexpr double average_B[8] = {0.0484714904, -0.0626873366, 0.958389667, -6.45119204,
-                                        17.0764071,   -22.227361,    14.3018745,  -3.6407429};
-}  // namespace ggx_fits
-
 template <class F, int N> F polynomial(const double (&coefficients)[N], const F& x) {
   F sum(coefficients[N - 1]);
   for (int i = N - 2; i >= 0; --i) sum = sum * x + F(coefficients[i]);
   return sum;
 }
 
-/// Of light from everywhere, seen from a direction with that cosine; root: ggx.root(cosine).
-template <class F>
-GgxAlbedo<F> ggx_albedo(const Ggx<F>& ggx, const F& cosine, const F& root, const F& roughness) {
-  const F s = sqrt(cosine / root);
-  F E(0), h(0);
-  for (int i = 8; i >= 0; --i) E = E * s + polynomial(ggx_fits::E_of_cosine[i], roughness);
-  for (int i = 5; i >= 0; --i) h = h * s + polynomial(ggx_fits::h_of_cosine[i], roughness);
-  E = min(E, F(1));
-  const F x = max(F(1) - root * h, F(0)), x2 = x * x;
-  return {select(ggx.perfect, F(1), E), select(ggx.perfect, schlick_weight(cosine), E * (x2 * x2 * x))};
-}
-/// Averages over the hemisphere, weighted by the cosine.
-template <class F> GgxAlbedo<F> ggx_average_albedo(const Ggx<F>& ggx, const F& roughness) {
-  return {select(ggx.perfect, F(1), polynomial(ggx_fits::average_E, roughness)),
-          select(ggx.perfect, F(1.0 / 21), polynomial(ggx_fits::average_B, roughness))};
-}
+/// The fits for one roughness, as polynomials of s.
+template <class F> class GgxAlbedos {
+  static constexpr int E_terms = std::extent_v<decltype(albedo_tables::E)>;
+  static constexpr int h_terms = std::extent_v<decltype(albedo_tables::h)>;
+  F E_[E_terms], h_[h_terms];
+  F roughness_;
 
-/// What rough glass reflects and refracts in all.
-template <class F> F glass_albedo(const F& cosine, const F& roughness, const F& eta) {
-  (void)cosine, (void)roughness, (void)eta;
-  return F(1);
+ public:
+  GgxAlbedos() = default;
+  explicit GgxAlbedos(const F& roughness) : roughness_(roughness) {
+    for (int i = 0; i < E_terms; ++i) E_[i] = polynomial(albedo_tables::E[i], roughness);
+    for (int i = 0; i < h_terms; ++i) h_[i] = polynomial(albedo_tables::h[i], roughness);
+  }
+  /// E of a direction with that cosine; root: S of the cosine. 1 where the surface is perfectly smooth.
+  F all(const Ggx<F>& ggx, const F& cosine, const F& root) const {
+    return select(ggx.perfect, F(1), all_by(sqrt(cosine / root)));
+  }
+  GgxAlbedo<F> operator()(const Ggx<F>& ggx, const F& cosine, const F& root) const {
+    const F s = sqrt(cosine / root), E = all_by(s);
+    F h = h_[h_terms - 1];
+    for (int i = h_terms - 2; i >= 0; --i) h = h * s + h_[i];
+    const F x = max(F(1) - root * h, F(0)), x2 = x * x;
+    return {select(ggx.perfect, F(1), E), select(ggx.perfect, schlick_weight(cosine), E * (x2 * x2 * x))};
+  }
+  /// Averages over the hemisphere, weighted by the cosine.
+  GgxAlbedo<F> average(const Ggx<F>& ggx) const {
+    return {F(1) - average_lost(ggx),
+            select(ggx.perfect, F(1.0 / 21), polynomial(albedo_tables::average_B, roughness_))};
+  }
+  /// 1 - <E>, with its digits where it is small.
+  F average_lost(const Ggx<F>& ggx) const {
+    return select(ggx.perfect, F(0), ggx.alpha2 * polynomial(albedo_tables::average_lost, roughness_));
+  }
+
+ private:
+  F all_by(const F& s) const {
+    F E = E_[E_terms - 1];
+    for (int i = E_terms - 2; i >= 0; --i) E = E * s + E_[i];
+    return min(E, F(1));
+  }
+};
+
+/// Directions for light that has met several facets, (N.L) (1 - E(L)): of a smooth surface it is found where
+/// N.L is about alpha or less, 1 - E(L) being about as alpha^2 / (alpha^2 + (N.L)^2). So their density is
+///
+///   (N.L) / (pi log(1 + 1 / alpha^2) (alpha^2 + (N.L)^2)).
+template <class F> class GgxBounces {
+  F alpha2_, octaves_, factor_;
+
+ public:
+  GgxBounces() = default;
+  explicit GgxBounces(const Ggx<F>& ggx) : alpha2_(ggx.alpha2) {
+    octaves_ = log2(F(1) + F(1) / alpha2_);
+    factor_ = F(one_over_pi / 0.69314718055994530942) / octaves_;
+  }
+  F density(const F& cosine) const { return factor_ * cosine / (alpha2_ + cosine * cosine); }
+  F cosine(const F& v) const { return min(sqrt(alpha2_ * (exp2(v * octaves_) - F(1))), F(1)); }
+};
+
+/// What the table of glass may say too little by, as a share: so much more is said, and nothing gained.
+inline constexpr double glass_margin = 0.004;
+
+/// What rough glass reflects and refracts in all, seen from V. eta: 1/3 to 3 are in the table; what is beyond
+/// is as at its end.
+template <class F> F glass_albedo(const Ggx<F>& ggx, const F& roughness, const F& eta) {
+  constexpr int nx = std::extent_v<decltype(albedo_tables::glass), 1>,
+                nr = std::extent_v<decltype(albedo_tables::glass), 2>,
+                nt = std::extent_v<decltype(albedo_tables::glass), 3>;
+  const float* const table = &albedo_tables::glass[0][0][0][0];
+  const F t = (eta - F(1)) / (eta + F(1));
+  const F across = min(max((abs(t) - F(0.02)) * F(1 / 0.48), F(0)), F(1));
+  F whole[3], rest[3];
+  const auto split = [&](int axis, const F& at, int nodes) {
+    const F x = at * F(nodes - 1), magic(0x1.8p52);
+    whole[axis] = max(min((x - F(0.5) + magic) - magic, F(nodes - 2)), F(0));
+    rest[axis] = x - whole[axis];
+  };
+  split(0, sqrt(ggx.cosine), nx), split(1, roughness, nr), split(2, sqrt(across), nt);
+  const F cell = ((select(t < F(0), F(nx), F(0)) + whole[0]) * F(nr) + whole[1]) * F(nt) + whole[2];
+  double cells[lanes_of<F>];
+  if constexpr (lanes_of<F> == 1) cells[0] = cell;
+  else cell.store(cells);
+  F share(0);
+  for (int corner = 0; corner < 8; ++corner) {
+    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+    const F value =
+        gather<F>([&](int lane) { return double(table[int(cells[lane]) + (i * nr + j) * nt + k]); });
+    const F weight =
+        (i ? rest[0] : F(1) - rest[0]) * (j ? rest[1] : F(1) - rest[1]) * (k ? rest[2] : F(1) - rest[2]);
+    share = share + weight * value;
+  }
+  const F E = GgxAlbedos<F>(roughness).all(ggx, ggx.cosine, ggx.S);
+  return select(ggx.perfect, F(1), min(F(1 + glass_margin) * (F(1) - share * (F(1) - E)), F(1)));
 }
 
 }  // namespace LAMBENT_ISA

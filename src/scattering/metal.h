@@ -21,10 +21,11 @@ template <class F, class C> class MetalScattering {
   static constexpr int channels = channels_of<C>;
   const ScatterSurface<F, C>& s_;
   Ggx<F> ggx_;
+  GgxAlbedos<F> albedos_;
   GgxAlbedo<F> E_;
-  C bounces_;        ///< M / (pi (1 - <E>))
-  F under_;          ///< 1 / (pi (1 - <E>))
-  F facets_, flat_;  ///< Probabilities.
+  GgxBounces<F> further_;
+  C bounces_;           ///< M / (pi (1 - <E>))
+  F facets_, bounced_;  ///< Probabilities.
 
   C fresnel(const F& cosine) const {
     C out;
@@ -35,19 +36,21 @@ template <class F, class C> class MetalScattering {
  public:
   explicit MetalScattering(const ScatterSurface<F, C>& s) : s_(s) {
     ggx_ = Ggx<F>(facing_normal(s.N, s.G, s.V), s.V, s.roughness * s.roughness);
-    E_ = ggx_albedo(ggx_, ggx_.cosine, ggx_.S, s.roughness);
-    const GgxAlbedo<F> average = ggx_average_albedo(ggx_, s.roughness);
-    under_ = select(ggx_.perfect, F(0), F(one_over_pi) / (F(1) - average.all));
+    albedos_ = GgxAlbedos<F>(s.roughness);
+    E_ = albedos_(ggx_, ggx_.cosine, ggx_.S);
+    further_ = GgxBounces<F>(ggx_);
+    const F lost = albedos_.average_lost(ggx_);
+    const F under = select(ggx_.perfect, F(0), F(one_over_pi) / lost);
     C reflected;
     for (int c = 0; c < channels; ++c) {
       const F F0 = fresnel_conductor_at_normal(s.eta[c], s.k[c]), schlick = F(1.0 / 21) * (F(1) + F(20) * F0);
-      bounces_[c] = schlick * schlick * average.all / (F(1) - schlick * (F(1) - average.all));
+      bounces_[c] = schlick * schlick * (F(1) - lost) / (F(1) - schlick * lost);
       reflected[c] = E_.with(F0, F(1));
     }
     const F first = mean(reflected), further = mean(bounces_) * (F(1) - E_.all);
-    bounces_ = under_ * bounces_;
+    bounces_ = under * bounces_;
     const F over = F(1) / (first + further);
-    facets_ = over * first, flat_ = over * further;
+    facets_ = over * first, bounced_ = over * further;
   }
 
   Evaluated<F, C> evaluate(const Vec3<F>& L) const {
@@ -55,16 +58,16 @@ template <class F, class C> class MetalScattering {
     const Truth above = both(nl > F(0), dot(s_.G, L) > F(0), !ggx_.perfect);
     const F cosine = max(nl, F(0));
     const auto facet = ggx_.reflected(L, cosine);
-    const F E = ggx_albedo(ggx_, cosine, ggx_.root(cosine), s_.roughness).all;
+    const F E = albedos_.all(ggx_, cosine, ggx_.root(cosine));
     const C value = facet.value * fresnel(facet.VH) + (cosine * (F(1) - E_.all) * (F(1) - E)) * bounces_;
-    const F density = facets_ * facet.density + flat_ * (F(one_over_pi) * cosine);
+    const F density = facets_ * facet.density + bounced_ * further_.density(cosine);
     return {select(above, value, C{}), select(above, density, F(0))};
   }
 
   Scattered<F, C> scatter(const F& u, const F& v, const F& w) const {
     const Truth facets = w < facets_;
     Vec3<F> L = reflect(s_.V, ggx_.visible_normal(u, v));
-    if (!all(facets)) L = select(facets, L, direction_around(axes_around(ggx_.N), lambert_cosine(v), u));
+    if (!all(facets)) L = select(facets, L, direction_around(axes_around(ggx_.N), further_.cosine(v), u));
     const Evaluated<F, C> here = evaluate(L);
     const Truth leaves = here.density > F(0);
     Scattered<F, C> out;

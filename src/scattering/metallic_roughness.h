@@ -37,7 +37,9 @@ template <class F, class C> class MetallicRoughnessScattering {
   static constexpr int channels = channels_of<C>;
   const ScatterSurface<F, C>& s_;
   Ggx<F> base_, coat_;
-  GgxAlbedo<F> E_, E_coat_;
+  GgxAlbedos<F> albedos_;
+  GgxAlbedo<F> E_;
+  GgxBounces<F> further_;
   C F0_, F90_less_F0_;
   C bounces_;  ///< m M / (pi (1 - <E>)), what is to be multiplied by (1 - E(V)) (1 - E(L)).
   C matte_;    ///< (1 - m) (1 - t) b / (pi (1 - <Ed>))
@@ -46,9 +48,9 @@ template <class F, class C> class MetallicRoughnessScattering {
   F under_;    ///< 1 / (pi (1 - <E>))
   F below_;    ///< What the coat leaves.
   F coating_;  ///< clearcoat
-  // Probabilities: of the coat's lobe, the base's, of cosines above, the base's turned through, cosines
-  // below.
-  F p_coat_, p_base_, p_flat_, p_through_, p_flat_through_;
+  // Probabilities: of the coat's facets; of the base's, of the matte, and of further bounces; of the base's
+  // facets and of further bounces, turned through the surface.
+  F p_coat_, p_base_, p_flat_, p_bounced_, p_through_, p_bounced_through_;
   Truth any_coat_, any_through_;
 
   F dielectric_albedo(const GgxAlbedo<F>& E) const { return E.with(d_, d90_); }
@@ -59,14 +61,17 @@ template <class F, class C> class MetallicRoughnessScattering {
     const F one(1), zero(0);
     const Vec3<F> N = facing_normal(s.N, s.G, s.V);
     base_ = Ggx<F>(N, s.V, m.roughness * m.roughness);
-    E_ = ggx_albedo(base_, base_.cosine, base_.S, m.roughness);
-    const GgxAlbedo<F> average = ggx_average_albedo(base_, m.roughness);
+    albedos_ = GgxAlbedos<F>(m.roughness);
+    E_ = albedos_(base_, base_.cosine, base_.S);
+    further_ = GgxBounces<F>(base_);
+    const GgxAlbedo<F> average = albedos_.average(base_);
+    const F average_lost = albedos_.average_lost(base_);
 
     const F ratio = (m.ior - one) / (m.ior + one), dielectric = ratio * ratio;
     const F nonmetal = one - m.metallic;
     d90_ = m.specular, d_ = zero;
     const F F90 = nonmetal * m.specular + m.metallic;
-    under_ = select(base_.perfect, zero, F(one_over_pi) / (one - average.all));
+    under_ = select(base_.perfect, zero, F(one_over_pi) / average_lost);
     C metal_bounces, reflected;
     for (int c = 0; c < channels; ++c) {
       const F d = min(dielectric * m.specular_color[c], one) * m.specular;
@@ -75,12 +80,13 @@ template <class F, class C> class MetallicRoughnessScattering {
       F90_less_F0_[c] = F90 - F0_[c];
       reflected[c] = E_.with(F0_[c], F90);
       const F schlick = F(1.0 / 21) * (one + F(20) * m.base_color[c]);
-      metal_bounces[c] = m.metallic * schlick * schlick * average.all / (one - schlick * (one - average.all));
+      metal_bounces[c] = m.metallic * schlick * schlick * average.all / (one - schlick * average_lost);
     }
     bounces_ = under_ * metal_bounces;
     const F Ed = dielectric_albedo(E_), lost = one - E_.all;
     const F matte = nonmetal * (one - m.transmission);
-    matte_ = (matte * (F(one_over_pi) / (one - dielectric_albedo(average)))) * m.base_color;
+    const F remains = one - dielectric_albedo(average);
+    matte_ = (matte * select(remains > zero, F(one_over_pi) / remains, zero)) * m.base_color;
     tint_ = (nonmetal * m.transmission) * m.base_color;
 
     p_coat_ = zero, below_ = one;
@@ -88,20 +94,22 @@ template <class F, class C> class MetallicRoughnessScattering {
     any_coat_ = coating_ > zero;
     if (any(any_coat_)) {
       coat_ = Ggx<F>(N, s.V, m.clearcoat_roughness * m.clearcoat_roughness);
-      E_coat_ = ggx_albedo(coat_, coat_.cosine, coat_.S, m.clearcoat_roughness);
-      p_coat_ = coating_ * E_coat_.with(F(coat_F0), one);
+      const GgxAlbedo<F> E = GgxAlbedos<F>(m.clearcoat_roughness)(coat_, coat_.cosine, coat_.S);
+      p_coat_ = coating_ * E.with(F(coat_F0), one);
       below_ = one - p_coat_;
     }
     const F base_mean = mean(m.base_color), through = nonmetal * m.transmission * base_mean;
     any_through_ = through > zero;
     p_base_ = below_ * mean(reflected);
-    p_flat_ = below_ * (matte * base_mean * (one - Ed) + mean(metal_bounces) * lost);
+    p_flat_ = below_ * (matte * base_mean * (one - Ed));
+    p_bounced_ = below_ * (mean(metal_bounces) * lost);
     p_through_ = below_ * (through * (E_.all - Ed));
-    p_flat_through_ = below_ * (through * lost);
-    const F sum = p_coat_ + p_base_ + p_flat_ + p_through_ + p_flat_through_;
+    p_bounced_through_ = below_ * (through * lost);
+    const F sum = p_coat_ + p_base_ + p_flat_ + p_bounced_ + p_through_ + p_bounced_through_;
     const F share = select(sum > zero, one / sum, zero);
-    p_coat_ = share * p_coat_, p_base_ = share * p_base_, p_flat_ = share * p_flat_;
-    p_through_ = share * p_through_, p_flat_through_ = share * p_flat_through_;
+    p_coat_ = share * p_coat_, p_base_ = share * p_base_, p_flat_ = share * p_flat_,
+    p_bounced_ = share * p_bounced_;
+    p_through_ = share * p_through_, p_bounced_through_ = share * p_bounced_through_;
   }
 
   static constexpr double coat_F0 = 0.04;
@@ -113,21 +121,21 @@ template <class F, class C> class MetallicRoughnessScattering {
     // Light from below is light from above, turned through the surface.
     const Vec3<F> upper = select(nl < F(0), L - F(2) * nl * N, L);
     const auto facet = base_.reflected(upper, cosine);
-    const GgxAlbedo<F> E = ggx_albedo(base_, cosine, base_.root(cosine), s_.rough.roughness);
+    const GgxAlbedo<F> E = albedos_(base_, cosine, base_.root(cosine));
     const F lost = (F(1) - E_.all) * (F(1) - E.all), schlick = schlick_weight(facet.VH);
     const F value = select(base_.perfect, F(0), facet.value),
             density = select(base_.perfect, F(0), facet.density);
     const F matte = (F(1) - dielectric_albedo(E_)) * (F(1) - dielectric_albedo(E));
-    const F flat = F(one_over_pi) * cosine;
+    const F flat = F(one_over_pi) * cosine, bounced = further_.density(cosine);
     Evaluated<F, C> out;
     for (int c = 0; c < channels; ++c)
       out.value[c] =
           (F0_[c] + F90_less_F0_[c] * schlick) * value + cosine * (matte * matte_[c] + lost * bounces_[c]);
-    out.density = p_base_ * density + p_flat_ * flat;
+    out.density = p_base_ * density + p_flat_ * flat + p_bounced_ * bounced;
     if (any(any_through_)) {
       const F passed = (F(1) - (d_ + (d90_ - d_) * schlick)) * value + cosine * (lost * under_);
       out.value = select(below, passed * tint_, out.value);
-      out.density = select(below, p_through_ * density + p_flat_through_ * flat, out.density);
+      out.density = select(below, p_through_ * density + p_bounced_through_ * bounced, out.density);
     }
     const Truth sees = either(above, both(below, any_through_));
     out.value = select(sees, below_ * out.value, C{});
@@ -151,14 +159,21 @@ template <class F, class C> class MetallicRoughnessScattering {
     const Truth base = both(w < edge, !coat);
     edge = edge + p_flat_;
     const Truth flat = both(w < edge, !coat, !base);
+    edge = edge + p_bounced_;
+    const Truth bounced = both(w < edge, !coat, !base, !flat);
+    const Truth upwards = either(either(coat, base), either(flat, bounced));
     edge = edge + p_through_;
-    const Truth through = both(w < edge, !coat, !base, !flat);
-    const Truth flat_through = both(!coat, !base, !flat, !through, p_flat_through_ > F(0));
-    const Truth downwards = either(through, flat_through);
+    const Truth through = both(w < edge, !upwards);
+    const Truth bounced_through = both(!upwards, !through, p_bounced_through_ > F(0));
+    const Truth downwards = either(through, bounced_through);
 
     Vec3<F> L = N;
-    const Truth cosines = either(flat, flat_through);
-    if (any(cosines)) L = direction_around(axes_around(N), lambert_cosine(v), u);
+    const Truth several = either(bounced, bounced_through);
+    if (any(either(flat, several))) {
+      F cosine = lambert_cosine(v);
+      if (any(several)) cosine = select(several, further_.cosine(v), cosine);
+      L = direction_around(axes_around(N), cosine, u);
+    }
     const Truth facets = either(base, through);
     if (any(facets)) L = select(facets, reflect(s_.V, base_.visible_normal(u, v)), L);
     if (any(coat)) L = select(coat, reflect(s_.V, coat_.visible_normal(u, v)), L);
@@ -180,8 +195,7 @@ template <class F, class C> class MetallicRoughnessScattering {
       factor[c] = select(coat, coating_ * factor[c], factor[c]);
     }
     Scattered<F, C> out;
-    const Truth leaves =
-        both(!perfect, above, here.density > F(0), either(either(coat, base), either(flat, downwards)));
+    const Truth leaves = both(!perfect, above, here.density > F(0), either(upwards, downwards));
     out.density = select(leaves, here.density, F(0));
     const F chance = select(coat, p_coat_, select(through, p_through_, p_base_));
     const F over = F(1) / select(leaves, here.density, chance);
@@ -199,7 +213,8 @@ template <class F, class C> class MetallicRoughnessScattering {
     for (int c = 0; c < channels; ++c) {
       const F matte = (F(1) - dielectric_albedo(E_)) * (F(1) - s_.rough.metallic) * s_.rough.base_color[c];
       const F bounced = select(base_.perfect, F(0), bounces_[c] / under_ * (F(1) - E_.all));
-      out[c] = (F(1) - below_) + below_ * (E_.with(F0_[c], F0_[c] + F90_less_F0_[c]) + bounced + matte);
+      const F base = E_.with(F0_[c], F0_[c] + F90_less_F0_[c]) + bounced + matte;
+      out[c] = min((F(1) - below_) + below_ * base, F(1));
     }
     return out;
   }

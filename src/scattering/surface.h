@@ -56,7 +56,7 @@ template <class F, class C> struct Scattered {
   F density;    ///< Per solid angle, of everything that could have chosen L; 0 where perfect, or black.
   F eta_scale;  ///< Square of the index beyond over that on V's side where light was refracted and its
                 ///< radiance with it, else 1: weight * eta_scale is a share of power, for Russian roulette.
-  F spread;           ///< About how much wider the ray leaves, radians.
+  F spread;     ///< About how much wider the ray leaves, radians.
   MaskOf<F> perfect;  ///< Mirrored, refracted or let through without width.
   MaskOf<F> through;  ///< L is on the other side of the surface.
 };

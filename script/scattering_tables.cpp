@@ -1,0 +1,263 @@
+// Computes what src/scattering/albedo_tables.h holds, and says how well it fits. By hand, where a formula of
+// src/scattering has changed:
+//
+//   c++ -std=c++20 -O3 -march=native -ffast-math script/scattering_tables.cpp -o /tmp/scattering_tables
+//   /tmp/scattering_tables > src/scattering/albedo_tables.h
+//
+// All of it is integrals over GGX by the midpoint rule: of normals drawn by visible normals, the albedo is
+// the mean of G2 / G1 of what they reflect and refract. src/scattering/ggx_albedo.h says what is fitted.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+double root_of(double c, double alpha) { return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c); }
+
+/// Calls f(V.H, N.H) for n x n visible normals (Dupuy and Benyoub 2023), by half a turn.
+template <class Function> void for_visible_normals(double mu, double alpha, int n, const Function& f) {
+  const double sine = std::sqrt(std::max(1 - mu * mu, 0.0)), length = std::hypot(alpha * sine, mu);
+  const double across = alpha * sine / length, up = mu / length;
+  for (int i = 0; i < n; ++i) {
+    const double turn = std::cos(M_PI * (i + 0.5) / n);
+    for (int j = 0; j < n; ++j) {
+      const double v = (j + 0.5) / n, below = v * (1 + up),
+                   ring = std::sqrt(std::max(below * (2 - below), 0.0));
+      const double hx = alpha * (ring * turn + across), hz = (1 - v) * (1 + up);
+      const double over = 1 / std::sqrt(hx * hx + alpha * alpha * ring * ring * (1 - turn * turn) + hz * hz);
+      f(std::min(over * (hx * sine + hz * mu), 1.0), over * hz);
+    }
+  }
+}
+
+/// G2 / G1 of the mirrored direction; 0 below the horizon.
+double reflected(double VH, double NH, double mu, double alpha) {
+  const double c = 2 * VH * NH - mu;
+  if (c <= 0) return 0;
+  return c * (mu + root_of(mu, alpha)) / (c * root_of(mu, alpha) + mu * root_of(c, alpha));
+}
+
+struct Albedo {
+  double E, B;  ///< With F = 1, and with F = (1 - V.H)^5.
+};
+Albedo mirror_albedo(double mu, double alpha, int n) {
+  Albedo sum{};
+  for_visible_normals(mu, alpha, n, [&](double VH, double NH) {
+    const double g = reflected(VH, NH, mu, alpha), x = 1 - VH, x2 = x * x;
+    sum.E += g, sum.B += g * x2 * x2 * x;
+  });
+  return {sum.E / n / n, sum.B / n / n};
+}
+
+double glass_albedo(double mu, double alpha, double eta, int n) {
+  double sum = 0;
+  const double bend = 1 / eta;
+  for_visible_normals(mu, alpha, n, [&](double VH, double NH) {
+    const double k = 1 - bend * bend * (1 - VH * VH), cosine = std::sqrt(std::max(k, 0.0)), g = cosine * eta;
+    const double down = bend * mu - (bend * VH - cosine) * NH;  // of the refracted ray
+    const double s = (VH - g) / (VH + g), p = (eta * eta * VH - g) / (eta * eta * VH + g);
+    const double F = k <= 0 || down <= 0 ? 1 : (s * s + p * p) / 2;
+    sum += F * reflected(VH, NH, mu, alpha);
+    if (F < 1)
+      sum += (1 - F) * std::min(1.0, down * (mu + root_of(mu, alpha)) / (mu * (down + root_of(down, alpha))));
+  });
+  return sum / n / n;
+}
+
+/// Least squares by Householder's reflections: the c with the least |w (A c - b)|. A is row by row.
+std::vector<double> least_squares(std::vector<double> A, std::vector<double> b,
+                                  const std::vector<double>& w) {
+  const std::size_t m = b.size(), n = A.size() / m;
+  for (std::size_t r = 0; r < m; ++r) {
+    for (std::size_t c = 0; c < n; ++c) A[r * n + c] *= w[r];
+    b[r] *= w[r];
+  }
+  std::vector<double> diagonal(n), dots(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    double norm = 0;
+    for (std::size_t r = k; r < m; ++r) norm += A[r * n + k] * A[r * n + k];
+    norm = A[k * n + k] > 0 ? -std::sqrt(norm) : std::sqrt(norm);
+    diagonal[k] = norm;
+    A[k * n + k] -= norm;
+    double square = 0, of_b = 0;
+    std::fill(dots.begin(), dots.end(), 0.0);
+    for (std::size_t r = k; r < m; ++r) {
+      const double v = A[r * n + k];
+      square += v * v, of_b += v * b[r];
+      for (std::size_t c = k + 1; c < n; ++c) dots[c] += v * A[r * n + c];
+    }
+    for (std::size_t r = k; r < m; ++r) {
+      const double v = 2 * A[r * n + k] / square;
+      b[r] -= v * of_b;
+      for (std::size_t c = k + 1; c < n; ++c) A[r * n + c] -= v * dots[c];
+    }
+  }
+  std::vector<double> x(n);
+  for (std::size_t k = n; k-- > 0;) {
+    double sum = b[k];
+    for (std::size_t c = k + 1; c < n; ++c) sum -= A[k * n + c] * x[c];
+    x[k] = sum / diagonal[k];
+  }
+  return x;
+}
+
+struct Fit {
+  double error;  ///< The largest, weighted by `counts`.
+  std::vector<double> coefficients;
+};
+/// Weights grow where the error is large, which makes the largest error small.
+Fit fit(const std::vector<double>& basis, const std::vector<double>& values,
+        const std::vector<double>& counts) {
+  const std::size_t m = values.size(), n = basis.size() / m;
+  std::vector<double> weight(m, 1.0), error(m), both(m);
+  Fit best{1e300, {}};
+  for (int round = 0; round < 80; ++round) {
+    for (std::size_t r = 0; r < m; ++r) both[r] = weight[r] * counts[r];
+    const std::vector<double> c = least_squares(basis, values, both);
+    double largest = 0, most = 0;
+    for (std::size_t r = 0; r < m; ++r) {
+      double sum = -values[r];
+      for (std::size_t i = 0; i < n; ++i) sum += basis[r * n + i] * c[i];
+      error[r] = counts[r] * std::fabs(sum), largest = std::max(largest, error[r]);
+    }
+    if (largest < best.error) best = {largest, c};
+    for (std::size_t r = 0; r < m; ++r)
+      weight[r] *= std::sqrt(error[r] / largest + 0.05), most = std::max(most, weight[r]);
+    for (double& w : weight) w /= most;
+  }
+  return best;
+}
+
+void add_powers(std::vector<double>& basis, double x, double y, int degree_x, int degree_y) {
+  double px = 1;
+  for (int i = 0; i <= degree_x; ++i, px *= x) {
+    double p = px;
+    for (int j = 0; j <= degree_y; ++j, p *= y) basis.push_back(p);
+  }
+}
+double value_of(const std::vector<double>& c, double x, double y, int degree_x, int degree_y) {
+  std::vector<double> powers;
+  add_powers(powers, x, y, degree_x, degree_y);
+  double sum = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * powers[i];
+  return sum;
+}
+
+void say(const char* type, const char* name, const std::vector<double>& values, std::vector<int> sizes,
+         const std::string& sentence) {
+  std::printf("/// %s\ninline constexpr %s %s", sentence.c_str(), type, name);
+  for (const int n : sizes) std::printf("[%d]", n);
+  std::printf(" = ");
+  std::size_t next = 0;
+  const std::function<void(std::size_t)> block = [&](std::size_t level) {
+    std::printf("{");
+    for (int i = 0; i < sizes[level]; ++i) {
+      if (i) std::printf(level + 1 == sizes.size() ? ", " : ",\n");
+      if (level + 1 < sizes.size()) block(level + 1);
+      else std::printf("%.9g", values[next++]);
+    }
+    std::printf("}");
+  };
+  block(0);
+  std::printf(";\n");
+}
+
+}  // namespace
+
+int main() {
+  constexpr int steps = 64, E_x = 8, h_x = 6, degree = 6, average_degree = 10;
+  // E by s = sqrt(mu / S) and the roughness.
+  std::vector<double> basis, values, ones;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const double s = double(i) / steps, r = double(j) / steps, alpha = std::pow(std::max(r, 0.01), 2);
+      const double z = s * s,
+                   mu =
+                       std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
+      add_powers(basis, s, r, E_x, degree);
+      values.push_back(i == 0 ? 1 : mirror_albedo(mu, alpha, 200).E);
+      ones.push_back(1);
+    }
+  Fit E = fit(basis, values, ones);
+  E.coefficients[0] += E.error;  // rather a little too much: then nothing is gained
+
+  // h by the same, where B = E (1 - S h)^5. Errors count as they do in B.
+  std::vector<double> counts;
+  basis.clear(), values.clear();
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      const double mu = std::max(double(i) / steps, 1e-6), r = double(j) / steps,
+                   alpha = std::pow(std::max(r, 0.01), 2), S = root_of(mu, alpha);
+      const Albedo a = mirror_albedo(mu, alpha, 200);
+      const double q = std::pow(a.B / a.E, 0.2);
+      add_powers(basis, std::sqrt(mu / S), r, h_x, degree);
+      values.push_back((1 - q) / S);
+      counts.push_back(S * std::max(5 * std::pow(q, 4), 0.05));
+    }
+  const Fit h = fit(basis, values, counts);
+
+  // Averages 2 int ... mu dmu, of the fits; mu = x^3 is dense where E is steep. What is lost is divided by
+  // alpha^2, and its relative error counts.
+  std::vector<double> lost, grazing, over, all;
+  basis.clear();
+  for (int j = 4; j <= 200; ++j) {
+    const double r = j / 200.0, alpha = r * r;
+    double sum_lost = 0, sum_B = 0, most_lost = 0;
+    constexpr int n = 4000;
+    for (int i = 0; i < n; ++i) {
+      const double x = (i + 0.5) / n, mu = x * x * x, S = root_of(mu, alpha), s = std::sqrt(mu / S);
+      const double e = std::min(value_of(E.coefficients, s, r, E_x, degree), 1.0);
+      const double b = e * std::pow(std::max(1 - S * value_of(h.coefficients, s, r, h_x, degree), 0.0), 5);
+      const double weight = 6 * std::pow(x, 5) / n;
+      sum_lost += weight * (1 - e), sum_B += weight * b, most_lost = std::max(most_lost, 1 - e);
+    }
+    add_powers(basis, r, 0, average_degree, 0);
+    lost.push_back(sum_lost / (alpha * alpha)), grazing.push_back(sum_B);
+    over.push_back(most_lost * alpha * alpha / sum_lost), all.push_back(1);
+  }
+  const Fit average_lost = fit(basis, lost, over), average_B = fit(basis, grazing, all);
+
+  // Glass: T = (1 - E_glass) / (1 - E) with E as it is fitted, so that 1 - T (1 - E) is right at the table's
+  // places: by sqrt(mu), the roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta - 1) / (eta + 1); from
+  // outside, from inside.
+  constexpr int nx = 13, nr = 8, nt = 16;
+  std::vector<double> glass;
+  for (const bool outside : {true, false})
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < nr; ++j)
+        for (int k = 0; k < nt; ++k) {
+          const double mu = std::max(std::pow(i / (nx - 1.0), 2), 1e-3),
+                       alpha = std::pow(std::max(j / (nr - 1.0), 0.1), 2);
+          const double t = 0.02 + 0.48 * std::pow(k / (nt - 1.0), 2), eta = (1 + t) / (1 - t);
+          const double S = root_of(mu, alpha),
+                       e = value_of(E.coefficients, std::sqrt(mu / S), std::sqrt(alpha), E_x, degree);
+          glass.push_back((1 - glass_albedo(mu, alpha, outside ? eta : 1 / eta, 100)) /
+                          std::max(1 - e, 0.001));
+        }
+
+  char right[100];
+  const auto to = [&](const char* words, double error) {
+    std::snprintf(right, sizeof right, words, error);
+    return std::string(right);
+  };
+  std::printf(
+      "#pragma once\n// Written by script/scattering_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
+  std::printf("namespace lambent::albedo_tables {\n\n// clang-format off\n");
+  say("double", "E", E.coefficients, {E_x + 1, degree + 1},
+      to("By powers of s, of the roughness: too much by 0 to %.4f.", 2 * E.error));
+  say("double", "h", h.coefficients, {h_x + 1, degree + 1}, to("Likewise; B is right to %.4f.", h.error));
+  say("double", "average_lost", average_lost.coefficients, {average_degree + 1},
+      to("(1 - <E>) / alpha^2 by powers of the roughness: (1 - E) / (1 - <E>) (1 - <E>) is right to %.4f.",
+         average_lost.error));
+  say("double", "average_B", average_B.coefficients, {average_degree + 1},
+      to("<B> by powers of the roughness: right to %.4f.", average_B.error));
+  say("float", "glass", glass, {2, nx, nr, nt},
+      "From outside, from inside; by sqrt(N.V), the roughness, the index.");
+  std::printf("// clang-format on\n\n}  // namespace lambent::albedo_tables\n");
+  std::fprintf(stderr, "E %.5f  B %.5f  <lost> %.5f  <B> %.5f\n", E.error, h.error, average_lost.error,
+               average_B.error);
+}
