@@ -164,10 +164,14 @@ LightBounds both_bounds(const LightBounds& a, const LightBounds& b) {
 LightNode light_node(const LightBounds& b) {
   const Vec3<double> center = center_of(b.box);
   const Vec3<float> as_float = cast<float>(center);
-  const double radius = 0.5 * length(b.box.upper - b.box.lower) + length(cast<double>(as_float) - center);
+  const Vec3<double> half = 0.5 * (b.box.upper - b.box.lower), off = cast<double>(as_float) - center;
+  const auto no_less = [](double size) {
+    return size > 0 ? std::nextafter(float(size), std::numeric_limits<float>::infinity()) : 0.0f;
+  };
   LightNode node{};
   node.center[0] = as_float.x, node.center[1] = as_float.y, node.center[2] = as_float.z;
-  node.radius = std::nextafter(float(radius), std::numeric_limits<float>::infinity());
+  node.half[0] = no_less(half.x + abs(off.x)), node.half[1] = no_less(half.y + abs(off.y)),
+  node.half[2] = no_less(half.z + abs(off.z));
   node.axis[0] = float(b.axis.x), node.axis[1] = float(b.axis.y), node.axis[2] = float(b.axis.z);
   node.cos_spread = b.spread >= 0.5 ? -1.0f : float(sincos_degrees(360 * b.spread).cos);
   node.cos_reach = float(sincos_degrees(360 * b.reach).cos);

@@ -9,8 +9,9 @@
 //
 // where d is the distance of the node's centre, theta the angle at which its lights leave towards P and i the
 // angle to N, each less (theta', i') by what the lights may deviate: the angle under which the node is seen
-// from P, and for theta the spread of the lights' axes. So it is no less than what the node's lights bring
-// from its middle, and zero only where none of them can bring anything.
+// from P, and for theta the spread of the lights' axes. It is zero only where none of the lights can bring
+// anything. Near or in a node d is at least half the radius of the ball around it: over a ball the mean of
+// 1 / d^2, seen from its middle, is 3 / radius^2.
 
 #include <cstdint>
 
@@ -22,16 +23,16 @@ namespace lambent {
 
 /// Some lights, or one: a leaf.
 struct LightNode {
-  float center[3], radius;  ///< A ball around them.
-  float axis[3];            ///< They face about there,
-  float cos_spread;         ///< within this angle of the axis, -1: anywhere;
-  float cos_reach;          ///< and shine up to that angle from where they face.
-  float intensity;          ///< The sum over them of radiance times area, on the axis: a point light's pi Il.
-  std::int32_t child;       ///< The first of two that stand side by side; -1: a leaf.
-  std::int32_t emitter;     ///< Of a leaf.
-  bool two_sided;           ///< Whether some shine backwards as they do forwards.
+  float center[3], half[3];  ///< A box around them: its middle, and half its sides.
+  float axis[3];             ///< They face about there,
+  float cos_spread;          ///< within this angle of the axis, -1: anywhere;
+  float cos_reach;           ///< and shine up to that angle from where they face.
+  float intensity;       ///< The sum over them of radiance times area, on the axis: a point light's pi Il.
+  std::int32_t child;    ///< The first of two that stand side by side; -1: a leaf.
+  std::int32_t emitter;  ///< Of a leaf.
+  bool two_sided;        ///< Whether some shine backwards as they do forwards.
 };
-static_assert(sizeof(LightNode) == 52);
+static_assert(sizeof(LightNode) == 60);
 
 /// The most levels of a tree: a leaf's path is one bit for each.
 inline constexpr int max_light_depth = 64;
@@ -56,7 +57,8 @@ inline double cosine_of_difference(double a, double b) {
 inline double importance(const LightNode& node, const Vec3<double>& P, const Vec3<double>& N,
                          const Attenuation& fading, double minimum) {
   const Vec3<double> way = Vec3<double>{node.center[0], node.center[1], node.center[2]} - P;
-  const double d = length(way), radius = node.radius;
+  const Vec3<double> half{node.half[0], node.half[1], node.half[2]};
+  const double d = length(way), radius = length(half);
   const bool around = !(d > radius);  // P lies within
   const Vec3<double> w = d > 0 ? way / d : Vec3<double>{};
   const double sine = around ? 0.0 : radius / d, cosine = around ? -1.0 : sqrt(1 - sine * sine);
@@ -66,11 +68,13 @@ inline double importance(const LightNode& node, const Vec3<double>& P, const Vec
   if (leaving < node.cos_reach - detail::light_margin) return 0;
   double meeting = 1;
   if (dot(N, N) > 0) {
+    // The corner of the box that lies highest over the surface.
+    if (!(dot(N, way) + abs(N.x) * half.x + abs(N.y) * half.y + abs(N.z) * half.z > 0)) return 0;
     meeting = detail::cosine_of_difference(dot(N, w), cosine);
     if (!(meeting > 0)) return 0;
   }
   return node.intensity * max(leaving, detail::light_margin) * meeting *
-         attenuate(fading, max(d, radius), minimum);
+         attenuate(fading, max(d, 0.5 * radius), minimum);
 }
 
 /// One light of a tree, and with which probability it has been chosen; -1: none lights P.

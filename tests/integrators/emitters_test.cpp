@@ -1,4 +1,5 @@
-// What shines, as paths look for it: against closed forms, and against itself, as rays that go anywhere find it.
+// What shines, as paths look for it: against closed forms, and against itself, as rays that go anywhere find
+// it.
 
 #include "integrators/emitters.h"
 
@@ -29,7 +30,10 @@ struct Prepared {
     emitters = prepare_emitters(frame->frame, frame->world);
     frame->frame.emitters = &emitters->table;
   }
-  explicit Prepared(const std::string& yaml) : Prepared(*parse_scene("lambent: 1\n" + yaml)) {}
+  explicit Prepared(const std::string& yaml) : Prepared(*parse_scene(with_camera(yaml))) {}
+  static std::string with_camera(const std::string& yaml) {
+    return "lambent: 1\ncamera: {eye: [0, 0, 9], target: [0, 0, 0]}\n" + yaml;
+  }
   const Frame& operator*() const { return frame->frame; }
 };
 
@@ -51,13 +55,11 @@ struct Mean {
   void add(double x) { sum += x, squares += x * x, ++count; }
   double mean() const { return sum / count; }
   /// Its standard deviation, were the numbers independent.
-  double error() const {
-    return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / count);
-  }
+  double error() const { return std::sqrt(std::max(squares / count - mean() * mean(), 0.0) / count); }
 };
 
-/// What a surface at P that faces N gets of all that shines, nothing in the way: the integral of radiance times
-/// cosine.
+/// What a surface at P that faces N gets of all that shines, nothing in the way: the integral of radiance
+/// times cosine.
 Mean irradiance(const Frame& frame, const V& P, const V& N, int count) {
   Points points;
   Mean mean;
@@ -69,8 +71,9 @@ Mean irradiance(const Frame& frame, const V& P, const V& N, int count) {
   return mean;
 }
 
-/// Lambert's formula of a polygon's irradiance, radiance 1: half the sum over its edges of the angle under which
-/// each is seen times N . (unit normal of the plane through P and the edge). All of it lies above the horizon.
+/// Lambert's formula of a polygon's irradiance, radiance 1: half the sum over its edges of the angle under
+/// which each is seen times N . (unit normal of the plane through P and the edge). All of it lies above the
+/// horizon.
 double polygon_irradiance(const V& P, const V& N, const std::vector<V>& corners) {
   double sum = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -92,7 +95,8 @@ TEST(Emitters, RectangleGivesWhatLambertsFormulaSays) {
   const double Le = M_PI * 3 / 2;
   for (const V& P : {V{0, 0, 0}, V{0.7, 1, 0.3}, V{-3, 0, 2}}) {
     expect_irradiance(p, P, {0, 1, 0}, Le * polygon_irradiance(P, {0, 1, 0}, corners));
-    expect_irradiance(p, P, normalize(V{0.1, 1, 0}), Le * polygon_irradiance(P, normalize(V{0.1, 1, 0}), corners));
+    expect_irradiance(p, P, normalize(V{0.1, 1, 0}),
+                      Le * polygon_irradiance(P, normalize(V{0.1, 1, 0}), corners));
   }
   expect_irradiance(p, {-2, 0.5, 0}, {1, 0, 0}, Le * polygon_irradiance({-2, 0.5, 0}, {1, 0, 0}, corners));
   EXPECT_EQ(irradiance(*p, {0, 3, 0}, {0, -1, 0}, 64).mean(), 0) << "behind it";
@@ -100,7 +104,8 @@ TEST(Emitters, RectangleGivesWhatLambertsFormulaSays) {
 
 TEST(Emitters, DiscAndSphereGiveTheirClosedForms) {
   // On the axis of a disc E = pi Le R^2 / (R^2 + d^2), Le = Il / R^2.
-  const Prepared disc("lights: [{disc: {center: [0, 2, 0], normal: [0, -1, 0], radius: 1.5, intensity: 4}}]\n");
+  const Prepared disc(
+      "lights: [{disc: {center: [0, 2, 0], normal: [0, -1, 0], radius: 1.5, intensity: 4}}]\n");
   expect_irradiance(disc, {0, 0, 0}, {0, 1, 0}, M_PI * 4 / (1.5 * 1.5 + 4));
   // Of a sphere that is all above the horizon E = pi Le (R / d)^2 cos = pi Il cos / d^2.
   const Prepared ball("lights: [{sphere: {center: [0, 2, 0], radius: 0.9, intensity: 4}}]\n");
@@ -120,7 +125,8 @@ TEST(Emitters, LightsWithoutExtentGiveTheEquationsNumbers) {
 }
 
 TEST(Emitters, SurfacesThatShineAreLights) {
-  // A square of radiance 2 as two triangles, and the same as one of an instance's, stretched from half the size.
+  // A square of radiance 2 as two triangles, and the same as one of an instance's, stretched from half the
+  // size.
   const std::string square =
       "mesh: {vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]]}";
   const Prepared p("objects: [{" + square + ", material: {emission: 2, diffuse: 0}}]\n");
@@ -128,18 +134,20 @@ TEST(Emitters, SurfacesThatShineAreLights) {
   expect_irradiance(p, {0.3, 0, 0}, {0, 1, 0}, 2 * polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
   // Both sides shine, unless the material is one-sided: the square faces down.
   expect_irradiance(p, {0.3, 4, 0}, {0, -1, 0}, 2 * polygon_irradiance({0.3, 4, 0}, {0, -1, 0}, corners));
-  const Prepared one(
-      "objects: [{" + square + ", material: {emission: 2, diffuse: 0, one_sided: true}}]\n");
+  const Prepared one("objects: [{" + square + ", material: {emission: 2, diffuse: 0, one_sided: true}}]\n");
   expect_irradiance(one, {0.3, 0, 0}, {0, 1, 0}, 2 * polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
   EXPECT_EQ(irradiance(*one, {0.3, 4, 0}, {0, -1, 0}, 64).mean(), 0);
   // Spheres and discs as the lights of their kind: Le = Il / R^2.
-  const Prepared ball("objects: [{sphere: {center: [0, 3, 0], radius: 0.5}, material: {emission: 2, opacity: 0.5}}]\n");
+  const Prepared ball(
+      "objects: [{sphere: {center: [0, 3, 0], radius: 0.5}, material: {emission: 2, opacity: 0.5}}]\n");
   expect_irradiance(ball, {0, 0, 0}, {0, 1, 0}, 0.5 * M_PI * 2 * 0.25 / 9);
-  const Prepared disc("objects: [{disc: {center: [0, 2, 0], normal: [0, 1, 0], radius: 1}, material: {emission: 2}}]\n");
+  const Prepared disc(
+      "objects: [{disc: {center: [0, 2, 0], normal: [0, 1, 0], radius: 1}, material: {emission: 2}}]\n");
   expect_irradiance(disc, {0, 0, 0}, {0, 1, 0}, M_PI * 2 / (1 + 4));
   // From inside, a sphere is all the sky: pi Le.
-  expect_irradiance(Prepared("objects: [{sphere: {radius: 50}, material: {emission: 2}}]\n"), {10, 20, 5}, {0, 1, 0},
-                    M_PI * 2);
+  expect_irradiance(
+      Prepared("objects: [{sphere: {center: [0, 0, 0], radius: 50}, material: {emission: 2}}]\n"),
+      {10, 20, 5}, {0, 1, 0}, M_PI * 2);
 }
 
 TEST(Emitters, ABackgroundOfOneColourGivesPiTimesIt) {
@@ -150,7 +158,7 @@ TEST(Emitters, ABackgroundOfOneColourGivesPiTimesIt) {
 }
 
 TEST(Emitters, NothingThatShinesGivesNothing) {
-  const Prepared p("objects: [{sphere: {}}]\n");
+  const Prepared p("objects: [{sphere: {center: [0, 0, 0], radius: 1}}]\n");
   const EmitterSample s = sample_emitters(*p, {0, 2, 0}, {0, 1, 0}, 0.5, 0.5, 0.5);
   EXPECT_TRUE(is_black(s.radiance_over_density));
   EXPECT_EQ(s.density, 0);
@@ -177,8 +185,8 @@ bool is_open(const Frame& frame, const V& P, const EmitterSample& s) {
   return !find_occluded(frame.world, ray, true, float(s.clear), true);
 }
 
-/// Samples that are open, sorted into cells of equal solid angle, against the integral of the density over each
-/// cell; and the density of a sample against what the ray along it finds.
+/// Samples that are open, sorted into cells of equal solid angle, against the integral of the density over
+/// each cell; and the density of a sample against what the ray along it finds.
 void expect_density_as_sampled(const Prepared& prepared, const V& P, const V& N, const std::string& what) {
   SCOPED_TRACE(what);
   const Frame& frame = *prepared;
@@ -190,20 +198,21 @@ void expect_density_as_sampled(const Prepared& prepared, const V& P, const V& N,
   };
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0, 1);
-  int open = 0, compared = 0;
+  int open = 0, compared = 0, found_there = 0, close = 0;
   for (int i = 0; i < count; ++i) {
-    const EmitterSample s =
-        sample_emitters(frame, P, N, uniform(random), uniform(random), uniform(random));
+    const EmitterSample s = sample_emitters(frame, P, N, uniform(random), uniform(random), uniform(random));
     if (!(s.density > 0) || !is_open(frame, P, s)) continue;
     ++open;
     ++seen[std::size_t(cell(s.L))];
     if (i >= 2000) continue;
+    // Rays in float may miss an edge, and at the rim of something round the density grows without end.
     const double found = density_along(frame, P, N, s.L);
-    if (!(found > 0)) continue;  // at an edge float rays may miss
-    EXPECT_NEAR(found, s.density, 1e-3 * s.density);
     ++compared;
+    found_there += found > 0;
+    close += std::fabs(found - s.density) <= 1e-4 * s.density;
   }
-  EXPECT_GT(compared, std::min(open, 2000) / 2);
+  EXPECT_GE(found_there, 0.99 * compared);
+  EXPECT_GE(close, 0.95 * compared);
   double integral = 0;
   for (int y = 0; y < up * fine; ++y)
     for (int x = 0; x < across * fine; ++x) {
@@ -239,19 +248,27 @@ TEST(Emitters, DensitiesAgreeWithWhatIsChosen) {
       {"triangles",
        "objects: [{mesh: {vertices: [[-1, 1, -1], [1, 1, -1], [1, 2, 1], [-1, 1, 1]], triangles: [[0, 1, 2], "
        "[0, 2, 3]]}, material: {emission: 1}}]\n"},
-      {"sphere of an object", "objects: [{sphere: {center: [0.3, 1.5, 0.2], radius: 1.1}, material: {emission: 1}}]\n"},
-      {"sphere from inside", "objects: [{sphere: {center: [0.3, 0.5, 0.2], radius: 2}, material: {emission: 1}}]\n"},
+      {"sphere of an object",
+       "objects: [{sphere: {center: [0.3, 1.5, 0.2], radius: 1.1}, material: {emission: 1}}]\n"},
+      {"sphere from inside",
+       "objects: [{sphere: {center: [0.3, 0.5, 0.2], radius: 2}, material: {emission: 1}}]\n"},
       {"stretched sphere",
-       "objects: [{sphere: {}, transform: [{scale: [1.5, 0.5, 1]}, {translate: [0, 1, 0]}], material: {emission: 1}}]\n"},
+       "objects: [{sphere: {center: [0, 0, 0], radius: 1}, transform: [{scale: [1.5, 0.5, 1]}, {translate: "
+       "[0, 1, 0]}], material: {emission: 1}}]\n"},
       {"disc of an object",
-       "objects: [{disc: {center: [0.3, 1, 0.2], normal: [0.1, -1, 0], radius: 1.2}, material: {emission: 1}}]\n"},
-      {"cylinder", "objects: [{cylinder: {from: [-1, 1, 0], to: [1, 1.2, 0.3], radius: 0.4}, material: {emission: 1}}]\n"},
+       "objects: [{disc: {center: [0.3, 1, 0.2], normal: [0.1, -1, 0], radius: 1.2}, material: {emission: "
+       "1}}]\n"},
+      {"cylinder",
+       "objects: [{cylinder: {from: [-1, 1, 0], to: [1, 1.2, 0.3], radius: 0.4}, material: {emission: "
+       "1}}]\n"},
       {"cone",
        "objects: [{cone: {from: [-1, 1, 0], to: [1, 1.2, 0.3], radius_from: 0.9, radius_to: 0}, material: "
        "{emission: 1}}]\n"},
       {"background", "background: 1\n"},
-      {"several", "background: 0.1\nlights: [{sphere: {center: [2, 1.5, 0.2], radius: 0.8, intensity: 0.5}}]\n"
-                  "objects: [{disc: {center: [-1, 1.5, 0], radius: 1.2}, material: {emission: 1}}]\n"},
+      {"several",
+       "background: 0.1\nlights: [{sphere: {center: [2, 1.5, 0.2], radius: 0.8, intensity: 0.5}}]\n"
+       "objects: [{disc: {center: [-1, 1.5, 0], normal: [0, 1, 0], radius: 1.2}, material: {emission: "
+       "1}}]\n"},
   };
   for (const auto& kind : kinds) {
     const Prepared p(kind.yaml);
@@ -268,15 +285,15 @@ TEST(Emitters, InstancesOfASurfaceAreLightsEachForItself) {
     mesh += ", [" + std::to_string(std::cos(a)) + ", " + std::to_string(0.1 * (i % 3)) + ", " +
             std::to_string(std::sin(a)) + "]";
   }
-  mesh += "], triangles: [[0, 1, 20]";
-  for (int i = 1; i < 20; ++i) mesh += ", [0, " + std::to_string(i + 1) + ", " + std::to_string(i) + "]";
+  mesh += "], triangles: [[0, 20, 1]";
+  for (int i = 1; i < 20; ++i) mesh += ", [0, " + std::to_string(i) + ", " + std::to_string(i + 1) + "]";
   mesh += "]}, material: {emission: 1, one_sided: true}";
   std::string yaml = "objects:\n";
   for (const char* transform : {"[{scale: [-1, 1, 1.5]}, {translate: [0, 2, 0]}]",
-                                "[{rotate: {axis: [0, 0, 1], angle: 70}}, {translate: [-2, 0.5, 0]}]",
+                                "[{rotate: {axis: [0, 0, 1], degrees: -60}}, {translate: [-2, 0.5, 0]}]",
                                 "[{scale: 0.5}, {translate: [2, 1, 1]}]"})
     yaml += "  - {" + mesh + ", transform: " + transform + "}\n";
-  Scene scene = *parse_scene("lambent: 1\n" + yaml);
+  Scene scene = *parse_scene(Prepared::with_camera(yaml));
   // The reader makes a shape of each; let all three show one.
   for (Object& object : scene.objects) object.shape = scene.objects[0].shape;
   const Prepared p(scene);
@@ -316,7 +333,7 @@ TEST(Emitters, PicturesAroundTheSceneAreChosenByTheirBrightness) {
     // Against a sum over all directions.
     const V N = normalize(V{0.3, 0.5, -0.4});
     double expected = 0;
-    constexpr int fine = 600;
+    constexpr int fine = 300;
     for (int y = 0; y < fine; ++y)
       for (int x = 0; x < fine; ++x) {
         const V L = direction((x + 0.5) / fine, (y + 0.5) / fine);
@@ -328,8 +345,8 @@ TEST(Emitters, PicturesAroundTheSceneAreChosenByTheirBrightness) {
 }
 
 TEST(Emitters, OfALargePictureACoarserLevelIsChosenFrom) {
-  const Prepared p(with_picture(4096, 1030, false, 0));
-  EXPECT_EQ(p.emitters->table.environment.width, 2048);
+  const Prepared p(with_picture(2050, 1030, false, 0));
+  EXPECT_EQ(p.emitters->table.environment.width, 1025);
   double sum = 0;
   for (int i = 0; i < 2000; ++i) {
     const double u = (i + 0.5) / 2000, v = std::fmod(0.5 + i * 0.618033988749895, 1.0);
@@ -381,13 +398,14 @@ TEST(LightTree, SaysWithWhichProbabilityItChooses) {
   ASSERT_EQ(p.emitters->nodes.size(), 2 * 300 - 1u);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> u(-5, 5), unit(0, 1);
+  double total = 0;
   for (int i = 0; i < 200; ++i) {
     const V P{u(random), u(random), u(random)};
     const V N = i % 2 ? normalize(V{u(random), u(random), u(random)}) : V{};
     double sum = 0;
     for (std::int32_t e = 0; e < 300; ++e) sum += detail::probability_of_emitter(*p, e, P, N);
     EXPECT_LE(sum, 1 + 1e-12);  // less where a node promises more than its lights keep
-    EXPECT_GT(sum, 0.5);
+    total += sum;
     for (int k = 0; k < 20; ++k) {
       const PickedLight picked = detail::pick_emitter(*p, P, N, unit(random));
       if (picked.emitter < 0) continue;
@@ -395,6 +413,7 @@ TEST(LightTree, SaysWithWhichProbabilityItChooses) {
       EXPECT_GT(picked.probability, 0);
     }
   }
+  EXPECT_GT(total / 200, 0.7);
 }
 
 TEST(LightTree, ChoosesAsOftenAsItSays) {
@@ -436,25 +455,30 @@ TEST(LightTree, NeverLeavesOutWhatLights) {
         expected += irradiance(*alone, P, N, 1 << 10).mean();
       }
       const Mean mean = irradiance(*p, P, N, 1 << 14);
-      EXPECT_NEAR(mean.mean(), expected, 4 * mean.error() + 0.003 * expected) << count << " lights, point " << i;
+      EXPECT_NEAR(mean.mean(), expected, 4 * mean.error() + 0.003 * expected)
+          << count << " lights, point " << i;
     }
   }
 }
 
 TEST(LightTree, IsBetterThanChoosingEvenly) {
-  // Of 2000 lights in a hall nearly all are far away.
+  // The mean square of what a sample brings, which its variance grows with, over all of 2000 lights.
   const Prepared p(many_lights(2000, 7));
-  const V P{1, 0, 1}, N{0, 1, 0};
-  const Mean tree = irradiance(*p, P, N, 1 << 13);
-  Mean even;
+  double tree = 0, even = 0;
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < 1 << 13; ++i) {
-    const int e = std::min(int(unit(random) * 2000), 1999);
-    const EmitterSample s = detail::sample_light(*p, e, P, unit(random), unit(random));
-    even.add(2000 * s.radiance_over_density[0] * std::max(dot(N, s.L), 0.0));
+  std::uniform_real_distribution<double> u(-5, 5);
+  for (int i = 0; i < 10; ++i) {
+    const V P{u(random), u(random), u(random)}, N = normalize(V{u(random), u(random), u(random)});
+    for (int e = 0; e < 2000; ++e) {
+      const EmitterSample s = detail::sample_light(*p, e, P, 0.5, 0.5);
+      const double brings = s.radiance_over_density[0] * std::max(dot(N, s.L), 0.0);
+      if (!(brings > 0)) continue;
+      const double probability = detail::probability_of_emitter(*p, e, P, N);
+      ASSERT_GT(probability, 0);
+      tree += brings * brings / probability, even += brings * brings * 2000;
+    }
   }
-  EXPECT_LT(tree.error(), 0.3 * even.error());
+  EXPECT_LT(tree, 0.2 * even);
 }
 
 TEST(LightTree, KeepsItsDepthWhereAllLightsStandInOnePlace) {
@@ -496,7 +520,9 @@ TEST(LightTree, BoundsOfTwoHoldBoth) {
 }
 
 TEST(Emitters, FadeAsTheFrameSays) {
-  Prepared p("lights: [{point: {position: [0, 4, 0], intensity: 8}}, {rectangle: {center: [0, 2, 0]}}]\n");
+  Prepared p(
+      "lights: [{point: {position: [0, 4, 0], intensity: 8}}, {rectangle: {center: [0, 2, 0], u: [1, 0, 0], "
+      "v: [0, 0, 1]}}]\n");
   p.frame->frame.path_attenuation = attenuation_1_over_r;
   p.emitters = prepare_emitters(p.frame->frame, p.frame->world);
   p.frame->frame.emitters = &p.emitters->table;
