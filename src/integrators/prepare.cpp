@@ -141,9 +141,13 @@ TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
 
 namespace {
 
+/// Whether the shutter's time is seen slice by slice. A view shows what is there in the middle of it.
+bool is_in_slices(const Scene& scene) { return is_moving(scene) && scene.integrator != Integrator::view; }
+
 /// Where the samples of each pixel lie.
-std::vector<Vec2<double>> pattern_of(const Scene& scene, bool in_slices) {
+std::vector<Vec2<double>> pattern_of(const Scene& scene) {
   const ImageSettings& image = scene.image;
+  const bool in_slices = is_in_slices(scene);
   if (image.pattern == Pattern::corners) return {{0, 0}};
   if (is_progressive(scene)) {
     int most = std::max(scene.path.max_samples, image.samples);
@@ -153,6 +157,10 @@ std::vector<Vec2<double>> pattern_of(const Scene& scene, bool in_slices) {
   if (image.adaptive) return progressive_pattern(image.adaptive->max, image.adaptive->start, image.filter);
   return in_slices ? progressive_pattern(image.samples, image.samples, image.filter)
                    : sample_pattern(image.samples, image.filter);
+}
+
+Shutter shutter_of(const Scene& scene, const std::vector<Vec2<double>>& pattern) {
+  return open_shutter(int(pattern.size()), std::min(scene.image.samples, scene.image.shutter_slices));
 }
 
 }  // namespace
@@ -165,14 +173,11 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   const bool is_adaptive = scene.image.is_adaptive();
   frame.width = scene.image.width;
   frame.height = scene.image.height;
-  // A view shows what is there in the middle of the shutter's time.
-  const bool in_slices = is_moving(scene) && scene.integrator != Integrator::view;
-  prepared->pattern = pattern_of(scene, in_slices);
+  prepared->pattern = pattern_of(scene);
   frame.pattern = prepared->pattern.data();
   frame.samples = int(prepared->pattern.size());
-  if (in_slices) {
-    prepared->shutter =
-        open_shutter(frame.samples, std::min(scene.image.samples, scene.image.shutter_slices));
+  if (is_in_slices(scene)) {
+    prepared->shutter = shutter_of(scene, prepared->pattern);
     frame.order = prepared->shutter.order.data();
   }
 
@@ -264,10 +269,10 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   return prepared;
 }
 
-Exposure::Exposure(const Scene& scene) : scene_(scene), prepared_(prepare(scene)) {
-  slices_ = prepared_->shutter.slices;
-  if (slices_.empty()) slices_.push_back({0, prepared_->frame.samples, 0.5});
-  if (slices_.size() > 1) prepared_.reset();
+Exposure::Exposure(const Scene& scene) : scene_(scene) {
+  const std::vector<Vec2<double>> pattern = pattern_of(scene);
+  if (is_in_slices(scene)) slices_ = shutter_of(scene, pattern).slices;
+  else slices_.push_back({0, int(pattern.size()), 0.5});
 }
 
 const PreparedFrame& Exposure::at(int slice) {

@@ -34,8 +34,8 @@ TEST(Shutter, DealsEachSampleOnceAndTimeByTheirNumber) {
     }
 }
 
-// A slice's samples are spread over the pixel by themselves: of 256 samples in 16 slices each slice has 16, one in
-// each column and each row of sixteen, and the places say nothing about the time.
+// A slice's samples are spread over the pixel by themselves: of 256 samples in 16 slices each slice has 16,
+// one in each column and each row of sixteen, and the places say nothing about the time.
 TEST(Shutter, ASlicesSamplesAreSpreadOverThePixel) {
   const Shutter shutter = open_shutter(256, 16);
   const std::vector<Vec2<double>> pattern = progressive_pattern(256, 256, Filter::box);

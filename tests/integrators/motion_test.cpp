@@ -1,5 +1,5 @@
-// Motion blur against closed forms: what a pixel sees of a moving thing is the share of the time for which it is
-// there.
+// Motion blur against closed forms: what a pixel sees of a moving thing is the share of the time for which it
+// is there.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,6 +31,12 @@ std::string glowing(const std::string& shape, const std::string& motion) {
   return "objects:\n  - {name: it, " + shape + ", material: {ambient: 0, diffuse: 0, emission: 1}" +
          (motion.empty() ? "" : ", motion: " + motion) + "}\n";
 }
+/// What is wrong with a scene, and the remedy.
+std::string only_error(const std::string& scene) {
+  const auto errors = test::errors_of(scene);
+  EXPECT_EQ(1u, errors.size());
+  return errors.empty() ? "" : errors[0].message + " | " + errors[0].hint;
+}
 double centre(int pixel) { return (pixel + 0.5) * 2 / n - 1; }
 bool same(const Image& a, const Image& b) {
   return a.data.size() == b.data.size() &&
@@ -38,8 +44,9 @@ bool same(const Image& a, const Image& b) {
 }
 
 TEST(Motion, OfABallCoversAPixelForAShareOfTheTime) {
-  // A ball of radius r goes from x = -s/2 to s/2. At height y its chord is 2 w, w = sqrt(r^2 - y^2); at x it is
-  // there while its centre lies within w of x: for the share of [x - w, x + w] that lies in [-s/2, s/2], over s.
+  // A ball of radius r goes from x = -s/2 to s/2. At height y its chord is 2 w, w = sqrt(r^2 - y^2); at x it
+  // is there while its centre lies within w of x: for the share of [x - w, x + w] that lies in [-s/2, s/2],
+  // over s.
   const double r = 0.3, s = 1;
   const Image image =
       render(parse_scene(head(256, ", shutter_slices: 64") +
@@ -112,7 +119,7 @@ TEST(Motion, OfNoLengthIsAsIfItStoodStill) {
   EXPECT_NEAR(mean(still), mean(moved), 0.002 * mean(still));
 }
 
-TEST(Motion, ReachesMirrorsShadowsAndMeshes) {
+TEST(Motion, ReachesShadows) {
   // What blocks the light moves away half way through: half of the light arrives.
   const std::string scene =
       "illumination: {model: attenuated, ambient: 0, attenuation: none}\n"
@@ -121,7 +128,6 @@ TEST(Motion, ReachesMirrorsShadowsAndMeshes) {
       "  - {box: {min: [-1, -2, 9], max: [1, 2, 10]}, motion: {translate: [2, 0, 0]}}\n";
   const Image image = render(parse_scene(head(16) + scene)).image;
   EXPECT_NEAR(0.8 * 0.5, image.pixel(n / 2, n / 2)[0], 0.8 / 16);
-  EXPECT_NEAR(0.8 * 0.5 * (1 - centre(4)), 0.8 - image.pixel(4, n / 2)[0], 1) << "sanity";
 }
 
 TEST(Motion, HasLayersAndExplainsAndIsTheSameForAnyThreads) {
@@ -170,9 +176,9 @@ TEST(Motion, OfAMeshThatManyShow) {
                             0.2 * std::sin(a), 0.2 * std::cos(b), 0.2 * std::sin(b));
     triangles += fmt::format("{}[{}, {}, {}]", i ? ", " : "", 3 * i, 3 * i + 1, 3 * i + 2);
   }
-  ScenePtr once = parse_scene(head(16) + glowing("mesh: {vertices: [" + vertices + "], triangles: [" + triangles +
-                                                     "]}",
-                                                 "{translate: [0.5, 0, 0]}"));
+  ScenePtr once =
+      parse_scene(head(16) + glowing("mesh: {vertices: [" + vertices + "], triangles: [" + triangles + "]}",
+                                     "{translate: [0.5, 0, 0]}"));
   auto twice = std::make_shared<Scene>(*once);
   twice->objects.push_back(twice->objects[0]);
   twice->objects[1].world_from_object = translation({0, 0.6, 0});
@@ -190,24 +196,23 @@ TEST(Motion, SaysWhatDoesNotGoTogether) {
   const std::string moving = glowing("sphere: {center: [0, 0, 0], radius: 1}", "{translate: [1, 0, 0]}");
   const std::string start =
       "lambent: 1\ncamera: {projection: orthographic, eye: [0, 0, 5], target: [0, 0, 0]}\n";
-  EXPECT_EQ(test::only(start + "image: {samples: {adaptive: {}}}\n" + moving),
+  EXPECT_EQ(only_error(start + "image: {samples: {adaptive: {}}}\n" + moving),
             "adaptive samples do not see what moves | give a number of them for all pixels: samples: 64");
-  EXPECT_EQ(test::only(start + "image: {pattern: corners}\n" + moving),
+  EXPECT_EQ(only_error(start + "image: {pattern: corners}\n" + moving),
             "'pattern: corners' takes one sample of each corner, which sees nothing move | leave the pattern "
             "out, and give samples: 64");
   const auto warned = warnings(parse_scene(start + moving));
   ASSERT_EQ(1u, warned.size());
   EXPECT_EQ("nothing is blurred by its motion: each pixel has one sample", warned[0].message);
-  EXPECT_EQ(test::only(start + glowing("sphere: {center: [0, 0, 0], radius: 1}", "{scale: 2}")),
-            "a motion has no key 'scale' | its keys are: rotate, translate");
-  EXPECT_EQ(test::only(start + glowing("sphere: {center: [0, 0, 0], radius: 1}", "{translate: [2e10, 0, 0]}"))
+  EXPECT_EQ(only_error(start + glowing("sphere: {center: [0, 0, 0], radius: 1}", "{scale: 2}")),
+            "unknown key 'scale' in a motion | known are: rotate, translate");
+  EXPECT_EQ(only_error(start + glowing("sphere: {center: [0, 0, 0], radius: 1}", "{translate: [2e10, 0, 0]}"))
                 .substr(0, 11),
             "number 1 of");
 }
 
-TEST(Motion, InstancesAndViewsShowTheMiddleOfTheTime) {
-  const std::string moving =
-      glowing("sphere: {center: [-0.5, 0, 0], radius: 0.2}", "{translate: [1, 0, 0]}");
+TEST(Motion, ViewsShowTheMiddleOfTheTime) {
+  const std::string moving = glowing("sphere: {center: [-0.5, 0, 0], radius: 0.2}", "{translate: [1, 0, 0]}");
   const std::string at_rest = glowing("sphere: {center: [0, 0, 0], radius: 0.2}", "");
   const auto view = [](const std::string& scene) {
     return render(parse_scene(scene, "scene", {{{"integrator", "{view: {show: depth}}"}}})).image;
