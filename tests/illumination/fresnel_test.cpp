@@ -1,6 +1,6 @@
 // Fresnel's equations against their closed forms, complex arithmetic, and each other.
 
-#include "scattering/fresnel.h"
+#include "illumination/fresnel.h"
 
 #include <gtest/gtest.h>
 
