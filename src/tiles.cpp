@@ -131,7 +131,7 @@ int thread_count(int wanted) {
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
   const Tiles tiles{film, options.tile_size};
-  const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
+  const std::size_t columns = film.layers ? std::size_t(frame.layers.columns()) : 0;
   const std::vector<double> distances = distances_from_centre(frame);
   const bool noisy = frame.tracing == Tracing::path;
   // Added up tile by tile, so that the noise does not depend on who was first.
@@ -188,7 +188,7 @@ class Goes {
         kernel_(kernel),
         film_(film),
         options_(options),
-        columns_(film.layers ? std::size_t(frame.layers.count()) * color_channels : 0),
+        columns_(film.layers ? std::size_t(frame.layers.columns()) : 0),
         distances_(distances_from_centre(frame)),
         samples(film, settings) {
     const int size = options.tile_size;

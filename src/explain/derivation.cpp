@@ -6,6 +6,7 @@
 #include "film/film.h"
 #include "image/srgb.h"
 #include "integrators/paint.h"
+#include "integrators/spectral.h"
 #include "lambent/image.h"
 
 namespace lambent {
@@ -152,44 +153,67 @@ int Derivation::code(int channel) const {
   return quantize(scene->image.encoding == Encoding::srgb ? srgb_from_linear(linear) : linear, 255);
 }
 
-Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
-                  int x, int y, int samples) {
+namespace {
+
+/// The scene with a wavelength in each channel of its colours, without what takes much room and says nothing
+/// about light.
+std::shared_ptr<const Scene> scene_in_pass(const Scene& lean, const Pass& pass) {
+  auto scene = std::make_shared<Scene>(lean);
+  for (Light& light : scene->lights) light.light = light_in_pass(lean, pass, light);
+  for (Material& material : scene->materials)
+    if (!material.metallic_roughness) material = material_in_pass(lean, pass, material);
+  scene->illumination.ambient = ambient_in_pass(lean, pass);
+  scene->background = in_pass(pass, lean.background);
+  return scene;
+}
+Scene without_shapes(const Scene& scene) {
+  Scene lean = scene;
+  for (Shape& shape : lean.shapes) shape.primitives = {};
+  for (Texture& texture : lean.textures) texture = {};
+  return lean;
+}
+
+/// With Pattern::corners the samples are four pixels of the film, of one sample each.
+std::vector<Pixel> pixels_of(const Scene& scene, int x, int y) {
+  if (scene.image.pattern != Pattern::corners) return {{x, y}};
+  return {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
+}
+
+/// Where the samples lie.
+Derivation begun(std::shared_ptr<const Scene> scene, const Frame& frame, int x, int y, int samples) {
   Derivation result;
-  const bool corners = scene->image.pattern == Pattern::corners;
   result.scene = std::move(scene);
   result.x = x, result.y = y;
-
-  // With Pattern::corners the samples are four pixels of the film, of one sample each.
-  std::vector<Pixel> pixels{{x, y}};
-  if (corners) pixels = {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
   double nearest = 0;
-  for (const Pixel& pixel : pixels)
+  for (const Pixel& pixel : pixels_of(*result.scene, x, y))
     for (int s = 0; s < samples; ++s) {
       DerivedSample sample;
-      sample.x = pixel.x + prepared.frame.pattern[s].x;
-      sample.y = pixel.y + prepared.frame.pattern[s].y;
+      sample.x = pixel.x + frame.pattern[s].x;
+      sample.y = pixel.y + frame.pattern[s].y;
       const double dx = sample.x - x - 0.5, dy = sample.y - y - 0.5, distance = dx * dx + dy * dy;
       if (result.samples.empty() || distance < nearest)
         nearest = distance, result.central = int(result.samples.size());
       result.samples.push_back(sample);
     }
+  return result;
+}
 
-  Frame frame = prepared.frame;
-  Notes notes(result, frame);
-  const Witness witness = notes.witness();
-  const RayListener listener = notes.listener();
-  frame.witness = &witness;
-  frame.listener = &listener;
+/// Adds the samples up, renders the pixel, and develops both.
+void finish(Derivation& result, const Frame& frame, const Kernel& kernel, int samples) {
+  const bool corners = result.scene->image.pattern == Pattern::corners;
+  const std::vector<Pixel> pixels = pixels_of(*result.scene, result.x, result.y);
   std::vector<double> sums(pixels.size() * color_channels);
   Scratch scratch;
   RayCounts counts;
   kernel.render(frame, {pixels.data(), std::uint32_t(pixels.size()), 0, samples, sums.data(), nullptr},
                 scratch, counts);
-
   for (DerivedSample& sample : result.samples) {
     for (const DerivedSummand& summand : sample.order)
       for (int c = 0; c < color_channels; ++c)
         sample.color[c] += result.rays[summand.ray].seen.weight[c] * summand.color[c];
+    for (const Derivation& pass : result.passes)
+      sample.color = sample.color +
+                     from_pass(pass.pass, pass.samples[std::size_t(&sample - result.samples.data())].color);
     result.sum = result.sum + sample.color;
   }
   // Developed as a picture of this pixel alone.
@@ -205,6 +229,37 @@ Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepa
   developed([&](std::size_t p, int c) { return corners ? result.samples[p].color[c] : result.sum[c]; },
             result.pixel);
   developed([&](std::size_t p, int c) { return sums[p * color_channels + std::size_t(c)]; }, result.rendered);
+}
+
+Derivation derive_from(std::shared_ptr<const Scene> scene, Frame frame, const Kernel& kernel, int x, int y,
+                       int samples) {
+  Derivation result = begun(std::move(scene), frame, x, y, samples);
+  Notes notes(result, frame);
+  const Witness witness = notes.witness();
+  const RayListener listener = notes.listener();
+  frame.witness = &witness;
+  frame.listener = &listener;
+  finish(result, frame, kernel, samples);
+  return result;
+}
+
+}  // namespace
+
+Derivation derive(std::shared_ptr<const Scene> scene, const PreparedFrame& prepared, const Kernel& kernel,
+                  int x, int y, int samples) {
+  if (prepared.passes.empty()) return derive_from(std::move(scene), prepared.frame, kernel, x, y, samples);
+  Derivation result = begun(scene, prepared.frame, x, y, samples);
+  const Scene lean = without_shapes(*scene);
+  for (const Pass& pass : prepared.passes) {
+    Derivation& of_pass = result.passes.emplace_back(
+        derive_from(scene_in_pass(lean, pass), *pass.frame, kernel, x, y, samples));
+    of_pass.pass = pass;
+    of_pass.pass.frame = nullptr;  // which does not live as long
+    const auto first = scene->spectral.wavelengths.begin() + pass.first;
+    of_pass.wavelengths.assign(first, first + pass.count);
+    result.asked.insert(result.asked.end(), of_pass.asked.begin(), of_pass.asked.end());
+  }
+  finish(result, prepared.frame, kernel, samples);
   return result;
 }
 

@@ -77,6 +77,12 @@ struct Derivation {
   float rendered[color_channels] = {};  ///< The same from the renderer's own sum.
   std::vector<AskedRay> asked;
 
+  /// Of a picture that is made of wavelengths: a derivation for each pass, with a wavelength in each channel
+  /// of its colours. Samples, sum and pixel are in linear sRGB then, and there are no rays but theirs.
+  std::vector<Derivation> passes;
+  Pass pass{};                      ///< Of one of these: what its channels add to linear sRGB,
+  std::vector<double> wavelengths;  ///< and which they are, in nm.
+
   const Material& material_of(const DerivedRay& ray) const { return ray.material; }
   ModelId model_of(const DerivedRay& ray) const { return lambent::model_of(*scene, material_of(ray)); }
   /// Whether the terms are the rendered pixel, in every bit.

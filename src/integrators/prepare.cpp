@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "illumination/fresnel.h"
+#include "integrators/spectral.h"
 #include "scene/uniform_material.h"
 
 namespace lambent {
@@ -60,9 +62,38 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   return record;
 }
 
+/// What its substance, or else its ior, makes of a material's record.
+void set_boundary(const Scene& scene, const Material& material, const Pass* pass, MaterialRecord& record) {
+  record.eta = grey(material.metallic_roughness ? material.metallic_roughness->ior : material.ior);
+  if (!material.substance) return;
+  const auto [eta, k] = index_of(*material.substance, scene, pass);
+  record.eta = eta, record.k = k;
+  record.boundary = std::holds_alternative<Metal>(*material.substance) ? Boundary::metal : Boundary::glass;
+  Rgb head_on;
+  for (int c = 0; c < color_channels; ++c) head_on[c] = fresnel_conductor_at_normal(eta[c], k[c]);
+  if (record.boundary == Boundary::metal) {
+    record.ambient = record.ambient * head_on;
+    record.diffuse = record.diffuse * head_on;
+  } else {
+    record.ior = eta[0];  // the same in all channels, or what stands for them
+  }
+  if (!info(model_of(scene, material)).measured) record.specular = record.specular * head_on;
+}
+
 /// As it is where nothing is painted on it; `before`: as painting begins.
-MaterialRecord material_record(const Scene& scene, const Material& material, const MaterialRecord& before) {
-  MaterialRecord record = unpainted(scene, uniform_material(material));
+MaterialRecord material_record(const Scene& scene, const Material& material, const Pass* pass,
+                               const MaterialRecord& before) {
+  Material plain = material;
+  if (pass) {
+    if (plain.metallic_roughness) {  // in red, green and blue, but for its opacity
+      plain.opacity = 1;
+      plain = uniform_material(plain);
+      plain.opacity = material.opacity;
+    }
+    plain = material_in_pass(scene, *pass, plain);
+  }
+  MaterialRecord record = unpainted(scene, uniform_material(plain));
+  set_boundary(scene, material, pass, record);
   record.maps = nullptr;  // the copy's
   if (before.is_rough) record.lobe = 2 * before.rough.roughness * before.rough.roughness;
   if (before.painted) record.reflects = before.reflects, record.transmits = before.transmits;
@@ -90,6 +121,25 @@ void note_vertex_colors(const Scene& scene, std::vector<MaterialRecord>& records
       records[m].reflects |= records[m].is_rough;
     }
   }
+}
+
+/// What of the frame has colours: in a pass, or as red, green and blue.
+void color(const Scene& scene, const Pass* pass, Frame& frame, PreparedFrame::Colored& colored) {
+  for (const Light& light : scene.lights)
+    colored.lights.push_back(pass ? light_in_pass(scene, *pass, light) : light.light);
+  for (const Material& material : scene.materials) {
+    // Painting is done in red, green and blue, and its result put into the pass.
+    colored.unpainted.push_back(unpainted(scene, material));
+    colored.materials.push_back(material_record(scene, material, pass, colored.unpainted.back()));
+    set_boundary(scene, material, nullptr, colored.unpainted.back());
+    colored.unpainted.back().ior = colored.materials.back().ior;
+  }
+  note_vertex_colors(scene, colored.materials);
+  frame.lights = colored.lights.data();
+  frame.materials = colored.materials.data();
+  frame.unpainted = colored.unpainted.data();
+  frame.ambient = pass ? ambient_in_pass(scene, *pass) : scene.illumination.ambient;
+  frame.background = pass && !scene.background_image ? in_pass(*pass, scene.background) : scene.background;
 }
 
 std::uint64_t primitive_count(const Scene& scene) {
@@ -132,19 +182,11 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
   frame.world = prepared->world.view();
   frame.any_transmits = prepared->world.any_transmits;
 
-  for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
-  frame.lights = prepared->lights.data();
-  frame.light_count = int(prepared->lights.size());
-  for (const AnyLight& light : prepared->lights)
-    frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
-  for (const Material& material : scene.materials) {
-    prepared->unpainted.push_back(unpainted(scene, material));
-    prepared->materials.push_back(material_record(scene, material, prepared->unpainted.back()));
-  }
-  note_vertex_colors(scene, prepared->materials);
-  frame.materials = prepared->materials.data();
-  frame.unpainted = prepared->unpainted.data();
-  for (const MaterialRecord& record : prepared->unpainted) {
+  color(scene, nullptr, frame, prepared->colored);
+  frame.light_count = int(scene.lights.size());
+  for (const Light& light : scene.lights)
+    frame.lights_have_limits |= with_light(light.light, [](const auto& one) { return has_limits(one); });
+  for (const MaterialRecord& record : prepared->colored.unpainted) {
     frame.any_gaps |= record.gaps;
     frame.any_masks |= record.alpha == Alpha::mask && record.transmits;
   }
@@ -170,21 +212,34 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene) {
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
-        frame.layers.refraction |= prepared->materials[m].transmits;
-        frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
+        const MaterialRecord& record = prepared->colored.materials[m];
+        frame.layers.refraction |= record.transmits;
+        frame.layers.reflection |= record.reflects || record.transmits;
       }
   for (int model = 0; model < model_count; ++model)
     frame.fading[model] = {attenuation_of(scene.illumination, ModelId(model)),
                            ambient_attenuation_of(scene.illumination, ModelId(model))};
-  frame.ambient = scene.illumination.ambient;
   if (scene.illumination.occlusion) frame.occlusion = *scene.illumination.occlusion;
   frame.minimum_distance = scene.illumination.minimum_distance;
-  frame.background = scene.background;
   frame.whitted = scene.whitted;
   if (scene.integrator == Integrator::path) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;
     if (scene.illumination.attenuation) frame.path_attenuation = *scene.illumination.attenuation;
+  }
+  if (scene.integrator == Integrator::spectral) {
+    frame.layers.wavelengths = int(scene.spectral.wavelengths.size());
+    prepared->passes = passes_of(scene);
+    prepared->pass_frames.assign(prepared->passes.size(), frame);
+    prepared->pass_colored.resize(prepared->passes.size());
+    for (std::size_t p = 0; p < prepared->passes.size(); ++p) {
+      Frame& of_pass = prepared->pass_frames[p];
+      color(scene, &prepared->passes[p], of_pass, prepared->pass_colored[p]);
+      of_pass.pass = &prepared->passes[p];
+      prepared->passes[p].frame = &of_pass;
+    }
+    frame.passes = prepared->passes.data();
+    frame.pass_count = int(prepared->passes.size());
   }
   return prepared;
 }

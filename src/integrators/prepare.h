@@ -8,13 +8,21 @@ namespace lambent {
 
 /// A frame and what it points at. It refers to the scene, which must outlive it.
 struct PreparedFrame {
+  /// What of a frame has colours.
+  struct Colored {
+    std::vector<AnyLight> lights;
+    std::vector<MaterialRecord> materials, unpainted;
+  };
   Frame frame;
   World world;
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
-  std::vector<AnyLight> lights;
-  std::vector<MaterialRecord> materials, unpainted;
+  Colored colored;
   std::vector<TextureRecord> textures;
+  /// Of a scene with `spectral`: frame.passes, and what they point at.
+  std::vector<Pass> passes;
+  std::vector<Frame> pass_frames;
+  std::vector<Colored> pass_colored;
 };
 
 /// Lays a scene out for the kernels; builds its trees.

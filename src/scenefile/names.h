@@ -33,7 +33,7 @@ inline constexpr std::pair<const char*, Attenuation> words_of<Attenuation>[] = {
     {"none", attenuation_none}, {"1/r", attenuation_1_over_r}, {"1/r^2", attenuation_1_over_r2}};
 template <>
 inline constexpr std::pair<const char*, Integrator> words_of<Integrator>[] = {
-    {"whitted", Integrator::whitted}, {"view", Integrator::view}};
+    {"whitted", Integrator::whitted}, {"spectral", Integrator::spectral}, {"view", Integrator::view}};
 template <>
 inline constexpr std::pair<const char*, View> words_of<View>[] = {
     {"normals", View::normals}, {"depth", View::depth},

@@ -100,15 +100,25 @@ double at(const Blackbody& body, double wavelength) {
   return x5 / (exp2(log2_of_e * c2 / (wavelength * body.kelvin)) - 1);
 }
 
-RelativeLight::RelativeLight(LightSpectrum spectrum) : spectrum_(std::move(spectrum)) {
-  // A hot body's power lies far from a cold one's: bring it near 1 first.
+RelativeLight::RelativeLight(LightSpectrum spectrum, double intensity) : spectrum_(std::move(spectrum)) {
   const double luminance = luminance_of([&](double nm) { return at(nm) * d65_at(nm); });
-  scale_ = luminance > 0 ? 1 / luminance : 0;
+  scale_ = luminance > 0 ? intensity / luminance : 0;
 }
 
 double RelativeLight::at(double wavelength) const {
   const double power = std::visit([&](const auto& s) { return lambent::at(s, wavelength); }, spectrum_);
   return scale_ * power / d65_at(wavelength);
+}
+
+double at(const Spectrum& spectrum, double wavelength) {
+  if (const auto* samples = std::get_if<Samples>(&spectrum)) return at(*samples, wavelength);
+  return std::get<RelativeLight>(spectrum).at(wavelength);
+}
+
+Rgb rgb_of(const Spectrum& spectrum) {
+  Rgb result = rgb_of([&](double wavelength) { return at(spectrum, wavelength); });
+  for (double& channel : result.c) channel = std::max(channel, 0.0);
+  return result;
 }
 
 double d65_at(double wavelength) {

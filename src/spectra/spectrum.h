@@ -31,13 +31,19 @@ using LightSpectrum = std::variant<Blackbody, Samples>;
 /// is 1.
 class RelativeLight {
  public:
-  explicit RelativeLight(LightSpectrum spectrum);
+  /// `intensity`: a factor on it.
+  explicit RelativeLight(LightSpectrum spectrum, double intensity = 1);
   double at(double wavelength) const;
 
  private:
   LightSpectrum spectrum_;
   double scale_ = 1;
 };
+
+/// What is said of a colour at every wavelength, as a factor on white: what a surface reflects, or light has
+/// of D65's.
+using Spectrum = std::variant<Samples, RelativeLight>;
+double at(const Spectrum& spectrum, double wavelength);
 
 /// The relative power of the CIE standard illuminant D65, 100 at 560 nm: white light.
 double d65_at(double wavelength);
@@ -76,6 +82,9 @@ struct WavelengthSet {
   std::vector<Rgb> weights;
 };
 WavelengthSet wavelength_set(std::vector<double> wavelengths);
+
+/// Linear sRGB of a spectrum; what lies outside of sRGB goes to its border.
+Rgb rgb_of(const Spectrum& spectrum);
 
 /// The middles of `count` equal parts of 375 to 735 nm, beyond which the eye sees next to nothing: 12 are
 /// 390, 420, ... 720 nm.

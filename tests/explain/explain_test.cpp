@@ -249,6 +249,38 @@ TEST(Explain, TheJsonIsAsItsSchemaSays) {
   }
 }
 
+TEST(Explain, TheJsonOfWavelengthsGivesThePixel) {
+  const test::JsonSchema schema(
+      Json::parse(test::read_text(std::string(LAMBENT_SOURCE_DIR) + "/docs/explain.schema.json")));
+  const ScenePtr scene = parse_scene(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0]}
+image: {size: [1, 1], samples: 2}
+integrator: {spectral: {wavelengths: 4}}
+lights: [{point: {position: [2, 2, 4], intensity: 4}}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: {metal: gold, roughness: 0.4}}]
+)");
+  const Json json = Json::parse(explanation(explain(scene, 0, 0), {ExplainFormat::json, {}, false}));
+  EXPECT_TRUE(schema.accepts(json)) << json.dump(1);
+  ASSERT_EQ(json["wavelengths"].size(), 4u);
+  double sum[3] = {};
+  for (std::size_t s = 0; s < 2; ++s) {
+    double color[3] = {};
+    for (const Json& pass : json["passes"]) {
+      double add[3] = {};
+      for (std::size_t i = 0; i < pass["weights"].size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          add[c] += pass["samples"][s]["color"][i].get<double>() * pass["weights"][i][c].get<double>();
+      for (std::size_t c = 0; c < 3; ++c) color[c] += add[c];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(color[c], json["samples"][s]["color"][c].get<double>());
+      sum[c] += color[c];
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(float(sum[c] / 2), json["linear"][c].get<float>());
+}
+
 TEST(Explain, TextStaysWithin80ColumnsAndSaysThatItAddsUp) {
   for (unsigned seed = 400; seed < 420; ++seed) {
     const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "2"));
