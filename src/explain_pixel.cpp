@@ -13,14 +13,14 @@ namespace {
 
 /// Which samples a pixel gets. With adaptive samples that depends on its neighbours, and theirs, and with
 /// samples until the noise is low on all of them; so the picture is taken.
-std::vector<Pass> passes_of_pixel(const Scene& scene, Exposure& exposure, const Kernel& kernel, int threads,
+std::vector<Portion> portions_of_pixel(const Scene& scene, Exposure& exposure, const Kernel& kernel, int threads,
                                   int x, int y) {
-  if (!scene.image.is_adaptive() && !is_progressive(scene)) return exposure.passes();
+  if (!scene.image.is_adaptive() && !is_progressive(scene)) return exposure.portions();
   Film film(scene.image);
   TileOptions options;
   options.threads = thread_count(threads);
   if (is_progressive(scene))
-    return render_until(exposure, kernel, scene.path, scene.image, film, options).passes;
+    return render_until(exposure, kernel, scene.path, scene.image, film, options).portions;
   std::vector<int> samples;
   render_adaptively(exposure.at(0).frame, kernel, scene.image, film, options, &samples);
   return {{0, 0, samples[std::size_t(y) * std::size_t(film.width) + std::size_t(x)]}};
@@ -40,8 +40,8 @@ DerivationPtr explain(const ScenePtr& scene, int x, int y, const ExplainOptions&
   }
   const Kernel& kernel = choose_kernel(options.isa);
   Exposure exposure(*scene);
-  const std::vector<Pass> passes = passes_of_pixel(*scene, exposure, kernel, options.threads, x, y);
-  return std::make_shared<Derivation>(derive(scene, exposure, kernel, x, y, passes));
+  const std::vector<Portion> portions = portions_of_pixel(*scene, exposure, kernel, options.threads, x, y);
+  return std::make_shared<Derivation>(derive(scene, exposure, kernel, x, y, portions));
 }
 
 int sample_count(const DerivationPtr& derivation) { return int(derivation->samples.size()); }

@@ -91,7 +91,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const RayCounts& rays = run.counts;
   stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow, rays.ambient};
   stats.seconds.develop = clock.lap();
-  stats.samples_per_pixel = double(rays.eye) / pixels;
+  stats.samples_per_pixel = double(rays.eye) / pixels / std::max(1, prepared->frame.pass_count);
   stats.noise = run.noise;
   stats.peak_memory_bytes = peak_memory_bytes();
   stats.threads = threads;

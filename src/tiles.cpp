@@ -132,7 +132,7 @@ int thread_count(int wanted) {
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
   const Tiles tiles{film, options.tile_size};
-  const std::size_t columns = film.layers ? std::size_t(frame.layers.count()) * color_channels : 0;
+  const std::size_t columns = film.layers ? std::size_t(frame.layers.columns()) : 0;
   const std::vector<double> distances = distances_from_centre(frame);
   const bool noisy = frame.tracing == Tracing::path;
   // Added up tile by tile, so that the noise does not depend on who was first.
@@ -189,7 +189,7 @@ class Goes {
       : kernel_(kernel),
         film_(film),
         options_(options),
-        columns_(film.layers ? std::size_t(frame.layers.count()) * color_channels : 0),
+        columns_(film.layers ? std::size_t(frame.layers.columns()) : 0),
         distances_(distances_from_centre(frame)),
         samples(film, settings) {
     const int size = options.tile_size;
@@ -298,11 +298,11 @@ TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSetti
                       const TileOptions& options) {
   TileRun run;
   Goes goes(exposure.at(0).frame, kernel, settings, film, options);
-  const std::vector<Pass> passes = exposure.passes();
-  for (std::size_t i = 0; i < passes.size() && !run.cancelled; ++i) {
-    const Frame& frame = exposure.at(passes[i].slice).frame;
-    goes.go(frame, passes[i].first, passes[i].end, double(i) / double(passes.size()),
-            double(i + 1) / double(passes.size()), run);
+  const std::vector<Portion> portions = exposure.portions();
+  for (std::size_t i = 0; i < portions.size() && !run.cancelled; ++i) {
+    const Frame& frame = exposure.at(portions[i].slice).frame;
+    goes.go(frame, portions[i].first, portions[i].end, double(i) / double(portions.size()),
+            double(i + 1) / double(portions.size()), run);
     run.samples = frame.samples;
     if (frame.tracing == Tracing::path) run.noise = goes.samples.noise();
   }
@@ -329,8 +329,8 @@ TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSetting
     const double from = progress, to = std::max(progress, estimate);
     for (int k = 0; k < count && !run.cancelled; ++k) {
       const int begin = slices[std::size_t(k)].first;
-      run.passes.push_back({k, begin + first / count, begin + end / count});
-      goes.go(exposure.at(k).frame, run.passes.back().first, run.passes.back().end,
+      run.portions.push_back({k, begin + first / count, begin + end / count});
+      goes.go(exposure.at(k).frame, run.portions.back().first, run.portions.back().end,
               from + (to - from) * k / count, from + (to - from) * (k + 1) / count, run);
     }
     progress = to;

@@ -12,7 +12,7 @@ struct TileRun {
   bool cancelled = false;
   int samples = 0;           ///< Of each pixel, where all have the same.
   double noise = 0;          ///< Of paths: NoiseSum's. Otherwise 0.
-  std::vector<Pass> passes;  ///< Of render_until: which samples each pixel got, in their order.
+  std::vector<Portion> portions;  ///< Of render_until: which samples each pixel got, in their order.
 };
 
 struct TileOptions {

@@ -6,6 +6,7 @@
 #include "film/film.h"
 #include "image/srgb.h"
 #include "integrators/paint.h"
+#include "integrators/spectral.h"
 #include "lambent/image.h"
 
 namespace lambent {
@@ -14,12 +15,13 @@ namespace {
 /// Notes what a kernel tells in one call.
 class Notes {
  public:
-  /// `pass`: whose first sample of each pixel is in its turn the derivation's from `first_sample` on.
-  Notes(Derivation& derivation, const PreparedFrame& prepared, const Pass& pass, std::size_t first_sample)
+  /// `portion`: whose first sample of each pixel is in its turn the derivation's from `first_sample` on.
+  Notes(Derivation& derivation, const PreparedFrame& prepared, const Frame& frame, const Portion& portion,
+        std::size_t first_sample)
       : to_(derivation),
         materials_(prepared.white.empty() ? derivation.scene->materials : prepared.white),
-        frame_(prepared.frame),
-        pass_(pass),
+        frame_(frame),
+        portion_(portion),
         first_sample_(first_sample),
         first_ray_(std::uint32_t(derivation.rays.size())) {}
 
@@ -46,8 +48,8 @@ class Notes {
     ray.seen.ray += first_ray_;
     if (seen.parent == no_ray) {
       const std::size_t sample = first_sample_ +
-                                 std::size_t(seen.pixel) * std::size_t(pass_.end - pass_.first) +
-                                 std::size_t(seen.sample - pass_.first);
+                                 std::size_t(seen.pixel) * std::size_t(portion_.end - portion_.first) +
+                                 std::size_t(seen.sample - portion_.first);
       sample_of_.push_back(sample);
       to_.samples[sample].eye_ray = ray.seen.ray;
     } else {
@@ -166,7 +168,7 @@ class Notes {
   Derivation& to_;
   const std::vector<Material>& materials_;
   const Frame& frame_;
-  const Pass& pass_;
+  const Portion& portion_;
   std::size_t first_sample_;
   std::uint32_t first_ray_;  ///< Of the derivation's: rays are numbered anew in each call.
   std::vector<std::size_t> sample_of_;
@@ -199,70 +201,130 @@ int Derivation::code(int channel) const {
   return quantize(scene->image.encoding == Encoding::srgb ? srgb_from_linear(linear) : linear, 255);
 }
 
-Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
-                  const std::vector<Pass>& passes) {
-  Derivation result;
-  const bool corners = scene->image.pattern == Pattern::corners;
+namespace {
+
+/// The scene with a wavelength in each channel of its colours, without what takes much room and says nothing
+/// about light.
+std::shared_ptr<const Scene> scene_in_pass(const Scene& lean, const Pass& pass) {
+  auto scene = std::make_shared<Scene>(lean);
+  for (Light& light : scene->lights) light.light = light_in_pass(lean, pass, light);
+  for (Material& material : scene->materials)
+    if (!material.metallic_roughness) material = material_in_pass(lean, pass, material);
+  scene->illumination.ambient = ambient_in_pass(lean, pass);
+  scene->background = in_pass(pass, lean.background);
+  return scene;
+}
+Scene without_shapes(const Scene& scene) {
+  Scene lean = scene;
+  for (Shape& shape : lean.shapes) shape.primitives = {};
+  for (Texture& texture : lean.textures) texture = {};
+  return lean;
+}
+
+/// With Pattern::corners the samples are four pixels of the film, of one sample each.
+std::vector<Pixel> pixels_of(const Scene& scene, int x, int y) {
+  if (scene.image.pattern != Pattern::corners) return {{x, y}};
+  return {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
+}
+
+constexpr int no_pass = -1;
+
+/// A pixel rendered once more: where its samples lie, and their sums; what is told of them, unless the
+/// picture is made of several passes.
+struct Rendered {
+  Derivation derivation;
+  std::vector<double> sums;
+  int samples = 0;  ///< Of each pixel.
+};
+/// `pass`: which of the frame's is looked at, or no_pass.
+Rendered render_pixel(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x,
+                      int y, const std::vector<Portion>& portions, int pass) {
+  Rendered rendered;
+  Derivation& result = rendered.derivation;
   result.scene = std::move(scene);
   result.standing_lights = standing_lights(*result.scene);
   result.x = x, result.y = y;
-
-  // With Pattern::corners the samples are four pixels of the film, of one sample each.
-  std::vector<Pixel> pixels{{x, y}};
-  if (corners) pixels = {{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}};
+  const std::vector<Pixel> pixels = pixels_of(*result.scene, x, y);
+  rendered.sums.resize(pixels.size() * color_channels);
   double nearest = 0;
-  std::vector<double> sums(pixels.size() * color_channels);
   Scratch scratch;
   RayCounts counts;
-  int samples = 0;  // of each pixel
-  for (const Pass& pass : passes) {
-    const PreparedFrame& prepared = exposure.at(pass.slice);
-    result.illumination = prepared.illumination;
-    result.background = prepared.frame.background;
+  for (const Portion& portion : portions) {
+    const PreparedFrame& prepared = exposure.at(portion.slice);
+    Frame frame = pass == no_pass ? prepared.frame : prepared.pass_frames[std::size_t(pass)];
+    result.illumination = pass == no_pass ? prepared.illumination : result.scene->illumination;
+    result.background = frame.background;
     const std::size_t first_sample = result.samples.size();
     for (const Pixel& pixel : pixels)
-      for (int s = pass.first; s < pass.end; ++s) {
-        const Vec2<double>& at = prepared.frame.pattern[prepared.frame.order ? prepared.frame.order[s] : s];
+      for (int s = portion.first; s < portion.end; ++s) {
+        const Vec2<double>& at = frame.pattern[frame.order ? frame.order[s] : s];
         DerivedSample sample;
         sample.x = pixel.x + at.x, sample.y = pixel.y + at.y;
-        sample.time = exposure.slices()[std::size_t(pass.slice)].time;
+        sample.time = exposure.slices()[std::size_t(portion.slice)].time;
         const double dx = sample.x - x - 0.5, dy = sample.y - y - 0.5, distance = dx * dx + dy * dy;
         if (result.samples.empty() || distance < nearest)
           nearest = distance, result.central = int(result.samples.size());
         result.samples.push_back(sample);
       }
-    samples += pass.end - pass.first;
+    rendered.samples += portion.end - portion.first;
 
-    Frame frame = prepared.frame;
-    Notes notes(result, prepared, pass, first_sample);
+    Notes notes(result, prepared, frame, portion, first_sample);
     const Witness witness = notes.witness();
     const RayListener listener = notes.listener();
-    frame.witness = &witness;
-    frame.listener = &listener;
+    if (frame.pass_count == 0) frame.witness = &witness, frame.listener = &listener;
     kernel.render(frame,
-                  {pixels.data(), std::uint32_t(pixels.size()), pass.first, pass.end, sums.data(), nullptr},
+                  {pixels.data(), std::uint32_t(pixels.size()), portion.first, portion.end,
+                   rendered.sums.data(), nullptr},
                   scratch, counts);
   }
+  return rendered;
+}
 
+/// Adds the samples up, and develops both sums as a picture of this pixel alone.
+Derivation finished(Rendered rendered) {
+  Derivation& result = rendered.derivation;
+  const bool corners = result.scene->image.pattern == Pattern::corners;
   for (DerivedSample& sample : result.samples) {
     for (const DerivedSummand& summand : sample.order)
       for (int c = 0; c < color_channels; ++c) sample.color[c] += summand.weight[c] * summand.color[c];
+    for (const Derivation& pass : result.passes)
+      sample.color = sample.color +
+                     from_pass(pass.pass, pass.samples[std::size_t(&sample - result.samples.data())].color);
     result.sum = result.sum + sample.color;
   }
-  // Developed as a picture of this pixel alone.
   ImageSettings alone = result.scene->image;
   alone.width = alone.height = 1;
   const auto developed = [&](const auto& sum_of, float* to) {
     Film film(alone);
-    for (std::size_t p = 0; p < pixels.size(); ++p)
+    for (std::size_t p = 0; p < rendered.sums.size() / color_channels; ++p)
       for (int c = 0; c < color_channels; ++c)
-        film.values[p * color_channels + std::size_t(c)] = float(sum_of(p, c) / samples);
+        film.values[p * color_channels + std::size_t(c)] = float(sum_of(p, c) / rendered.samples);
     std::ranges::copy(develop(std::move(film), alone).data, to);
   };
   developed([&](std::size_t p, int c) { return corners ? result.samples[p].color[c] : result.sum[c]; },
             result.pixel);
-  developed([&](std::size_t p, int c) { return sums[p * color_channels + std::size_t(c)]; }, result.rendered);
-  return result;
+  developed([&](std::size_t p, int c) { return rendered.sums[p * color_channels + std::size_t(c)]; },
+            result.rendered);
+  return std::move(result);
+}
+
+}  // namespace
+
+Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
+                  const std::vector<Portion>& portions) {
+  Rendered whole = render_pixel(scene, exposure, kernel, x, y, portions, no_pass);
+  const std::vector<Pass> passes = exposure.at(portions[0].slice).passes;
+  const Scene lean = passes.empty() ? Scene{} : without_shapes(*scene);
+  for (std::size_t p = 0; p < passes.size(); ++p) {
+    Derivation& of_pass = whole.derivation.passes.emplace_back(
+        finished(render_pixel(scene_in_pass(lean, passes[p]), exposure, kernel, x, y, portions, int(p))));
+    of_pass.pass = passes[p];
+    of_pass.pass.frame = nullptr;  // which does not live as long
+    const auto first = scene->spectral.wavelengths.begin() + passes[p].first;
+    of_pass.wavelengths.assign(first, first + passes[p].count);
+    whole.derivation.asked.insert(whole.derivation.asked.end(), of_pass.asked.begin(), of_pass.asked.end());
+  }
+  return finished(std::move(whole));
 }
 
 }  // namespace lambent

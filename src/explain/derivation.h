@@ -93,6 +93,12 @@ struct Derivation {
   float rendered[color_channels] = {};  ///< The same from the renderer's own sum.
   std::vector<AskedRay> asked;
 
+  /// Of a picture that is made of wavelengths: a derivation for each pass, with a wavelength in each channel
+  /// of its colours. Samples, sum and pixel are in linear sRGB then, and there are no rays but theirs.
+  std::vector<Derivation> passes;
+  Pass pass{};                      ///< Of one of these: what its channels add to linear sRGB,
+  std::vector<double> wavelengths;  ///< and which they are, in nm.
+
   const Material& material_of(const DerivedRay& ray) const { return ray.material; }
   ModelId model_of(const DerivedRay& ray) const {
     return material_of(ray).model.value_or(illumination.model);
@@ -108,8 +114,8 @@ struct Derivation {
   int code(int channel) const;
 };
 
-/// Renders pixel x, y once more, and notes what is told. `passes`: which samples it gets.
+/// Renders pixel x, y once more, and notes what is told. `portions`: which samples it gets.
 Derivation derive(std::shared_ptr<const Scene> scene, Exposure& exposure, const Kernel& kernel, int x, int y,
-                  const std::vector<Pass>& passes);
+                  const std::vector<Portion>& portions);
 
 }  // namespace lambent

@@ -15,6 +15,11 @@ Surface<Traced, Color<Traced>> surface_symbols(const Derivation& derivation, con
   s.n = Traced::symbol("n", material.shininess);
   s.outside = Traced::symbol("side", ray.hit.outside ? 1 : -1);
   s.to_camera = vector_symbol("E", -camera_record(derivation.scene->camera).forward);
+  const SeenMaterial& seen = ray.hit.numbers;
+  s.eta = color_symbol("eta", seen.eta);
+  s.k = color_symbol("k", seen.k);
+  if (seen.boundary == Boundary::glass && !ray.hit.outside)
+    for (int c = 0; c < color_channels; ++c) s.eta[c] = Traced(1) / s.eta[c];
   for (int i = 0; i < max_model_parameters; ++i) {
     if (!model.parameters[i].name) {
       s.own[i] = Traced(0);

@@ -1,5 +1,7 @@
 #include "explain/traced.h"
 
+#include "illumination/fresnel.h"
+
 namespace lambent {
 namespace {
 
@@ -57,6 +59,10 @@ Traced sqrt(const Traced& a) {
   if (name.size() > squared.size() && name.front() == '|' && name.ends_with(squared))
     return Traced::symbol(name.substr(0, name.size() - squared.size()), sqrt(a.value));
   return {Operation::root, sqrt(a.value), a};
+}
+
+Traced fresnel_conductor(const Traced& cosine, const Traced& eta, const Traced& k) {
+  return Traced::symbol("w", fresnel_conductor(cosine.value, eta.value, k.value));
 }
 
 Vec3<Traced> vector_symbol(const std::string& name, const Vec3<double>& value) {

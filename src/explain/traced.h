@@ -113,6 +113,8 @@ inline Traced abs(const Traced& a) { return {Operation::absolute, abs(a.value), 
 inline Traced pow(const Traced& x, const Traced& y) {
   return {Operation::power, pow(x.value, y.value), x, y.node};
 }
+/// w of Fresnel's equations: its steps would fill a page.
+Traced fresnel_conductor(const Traced& cosine, const Traced& eta, const Traced& k);
 inline Traced select(bool m, const Traced& a, const Traced& b) {
   Traced result(Operation::choose, m ? a.value : b.value, a, b.node);
   Formulas::current().nodes[std::size_t(result.node)].first = m;

@@ -43,9 +43,19 @@ class Telling {
     result["minimum_distance"] = d_.illumination.minimum_distance;
     result["sample_count"] = d_.samples.size();
     result["central_sample"] = d_.central;
-    result["samples"] = Json::array();
-    for (std::size_t i = 0; i < d_.samples.size(); ++i)
-      if (!only || std::size_t(*only) == i) result["samples"].push_back(sample(i));
+    result["samples"] = samples(only);
+    if (!d_.passes.empty()) {
+      result["wavelengths"] = scene_.spectral.wavelengths;
+      result["passes"] = Json::array();
+      for (const Derivation& pass : d_.passes) {
+        Json one;
+        one["wavelengths"] = pass.wavelengths;
+        one["weights"] = Json::array();
+        for (int i = 0; i < pass.pass.count; ++i) one["weights"].push_back(json(pass.pass.weights[i]));
+        one["samples"] = Telling(pass).samples(only);
+        result["passes"].push_back(std::move(one));
+      }
+    }
     result["sum"] = json(d_.sum);
     Rgb linear;
     Json code = Json::array();
@@ -58,6 +68,13 @@ class Telling {
   }
 
  private:
+  Json samples(std::optional<int> only) const {
+    Json list = Json::array();
+    for (std::size_t i = 0; i < d_.samples.size(); ++i)
+      if (!only || std::size_t(*only) == i) list.push_back(sample(i));
+    return list;
+  }
+
   Json sample(std::size_t number) const {
     const DerivedSample& sample = d_.samples[number];
     Json result;
@@ -68,6 +85,7 @@ class Telling {
       result["lens"] = {{"at", {lens->at.x, lens->at.y}}, {"focus", json(lens->focus)}};
     result["weight"] = 1.0 / double(d_.samples.size());
     result["color"] = json(sample.color);
+    if (!d_.passes.empty()) return result;  // its rays are those of the passes
     result["order"] = Json::array();
     for (const DerivedSummand& summand : sample.order) result["order"].push_back(summand.ray);
     result["ray"] = ray(sample.eye_ray);
@@ -163,6 +181,10 @@ class Telling {
     result["Ks"] = json(material.specular);
     result["n"] = material.shininess;
     result["emission"] = json(scene_.integrator == Integrator::path ? material.emission : ray.emission);
+    if (ray.hit.numbers.boundary != Boundary::none) {
+      result["eta"] = json(ray.hit.numbers.eta);
+      result["k"] = json(ray.hit.numbers.k);
+    }
     return result;
   }
 

@@ -40,13 +40,52 @@ class Telling {
     if (const auto lens = d_.lens_of(sample))
       page_.line(fmt::format("It goes through the lens at ({}, {}) from its centre, and is in focus at {}.",
                              short_number(lens->at.x), short_number(lens->at.y), text_of(lens->focus)));
-    if (scene_.integrator == Integrator::path) tell_path(sample.eye_ray);
-    else tell_ray(sample.eye_ray);
-    tell_sums(sample);
+    if (d_.passes.empty()) {
+      tell_rays(sample);
+    } else {
+      page_.line(fmt::format("Made of {} wavelengths, each of which follows the equation by itself.",
+                             scene_.spectral.wavelengths.size()));
+      for (const Derivation& pass : d_.passes) {
+        page_.heading(wavelengths_of(pass));
+        Telling(pass, page_).tell_rays(pass.samples[std::size_t(number)]);
+      }
+      tell_wavelengths(std::size_t(number));
+    }
     tell_pixel();
   }
 
  private:
+  void tell_rays(const DerivedSample& sample) {
+    if (scene_.integrator == Integrator::path) tell_path(sample.eye_ray);
+    else tell_ray(sample.eye_ray);
+    tell_sums(sample);
+  }
+
+  static std::string wavelengths_of(const Derivation& pass) {
+    std::string text = pass.wavelengths.size() == 1 ? "Wavelength " : "Wavelengths ";
+    for (std::size_t i = 0; i < pass.wavelengths.size(); ++i)
+      text += (i ? ", " : "") + short_number(pass.wavelengths[i]);
+    return text + (pass.wavelengths.size() == 1 ? " nm, alike in all channels"
+                                                : " nm, in place of red, green and blue");
+  }
+
+  /// What the wavelengths come to in sRGB.
+  void tell_wavelengths(std::size_t number) {
+    page_.heading("The sample's colour in sRGB");
+    page_.line(
+        "Each wavelength counts what the CIE 1931 observer sees of D65 there, so that white is 1 1 1.");
+    for (const Derivation& pass : d_.passes)
+      for (int i = 0; i < pass.pass.count; ++i) {
+        const double value = pass.samples[number].color[i];
+        page_.equation(short_number(pass.wavelengths[std::size_t(i)]) + " nm",
+                       {written(grey(value), page_.notation()) + times() +
+                            written(pass.pass.weights[i], page_.notation()),
+                        written(value * pass.pass.weights[i], page_.notation())},
+                       "");
+      }
+    page_.equation("sum", {written(d_.samples[number].color, page_.notation())}, "");
+  }
+
   void tell_ray(std::uint32_t number) {
     const DerivedRay& ray = d_.rays[number];
     const std::string name = ray.seen.parent == no_ray ? "from the eye"
@@ -201,6 +240,7 @@ class Telling {
                            place_of(material.place), short_color(material.ambient),
                            short_color(material.diffuse), short_color(material.specular),
                            short_number(material.shininess)));
+    tell_substance(ray);
     if (const std::string how = how_painted(material); !how.empty()) page_.line(how);
     equation("P", text_of(ray.hit.P));
     equation("N", text_of(ray.hit.N));
@@ -211,6 +251,17 @@ class Telling {
         "model {}: Ka Ia{} + sum over the lights of {}", model.name,
         ambient_attenuation_of(d_.illumination, d_.model_of(ray)) == AmbientAttenuation::none ? "" : " / R",
         model.equation));
+  }
+
+  void tell_substance(const DerivedRay& ray) {
+    const SeenMaterial& seen = ray.hit.numbers;
+    if (seen.boundary == Boundary::none) return;
+    const Substance& substance = *scene_.materials[ray.hit.material].substance;
+    const bool metal = seen.boundary == Boundary::metal;
+    const std::string name = metal ? std::get<Metal>(substance).name : std::get<Glass>(substance).name;
+    page_.line(fmt::format("{}{}{}: eta {}{}; w by Fresnel's equations", metal ? "metal" : "glass",
+                           name.empty() ? "" : " ", name, short_color(seen.eta),
+                           metal ? ", k " + short_color(seen.k) : ""));
   }
 
   /// Where the numbers come from, if not from the material alone.

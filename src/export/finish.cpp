@@ -61,7 +61,10 @@ void remark_on_settings(const Scene& scene, Remarks& remarks) {
 }
 
 Finish finish_of(const Scene& scene, const Material& painted, Remarks& remarks) {
-  const Material material = uniform_material(painted);
+  const Material material = uniform_material(seen_head_on(painted));
+  if (painted.substance)
+    remarks.add(painted.place, "is not given the measured constants of " + called("material", painted.name) +
+                                   ": it reflects alike at every angle, as this does head on");
   const ModelId model = model_of(scene, material);
   const std::string who = called("material", material.name);
   const auto remark = [&](const std::string& rest) { remarks.add(material.place, rest); };

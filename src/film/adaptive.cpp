@@ -11,7 +11,7 @@ AdaptiveFilm::AdaptiveFilm(const Film& film, const ImageSettings& settings)
       settings_(settings.adaptive.value_or(AdaptiveSamples{})),
       encoded_(settings.encoding == Encoding::srgb),
       pixels_(std::size_t(film.width) * film.height),
-      columns_(film.layers ? std::size_t(film.layers->plan().count()) * color_channels : 0),
+      columns_(film.layers ? std::size_t(film.layers->plan().columns()) : 0),
       layer_sums_(pixels_.size() * columns_),
       hits_(film.layers ? pixels_.size() : 0) {
   for (Pixel& pixel : pixels_) {

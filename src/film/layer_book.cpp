@@ -16,6 +16,9 @@
 namespace lambent {
 namespace {
 
+/// "wavelength.550nm".
+std::string wavelength_name(double wavelength) { return fmt::format("wavelength.{}nm", wavelength); }
+
 constexpr int most_crypto_levels = 3;  // six ids a pixel, the usual number
 // Z, N, P, albedo, UV
 constexpr const char* data_names[] = {"Z",   "N.X",      "N.Y",      "N.Z",      "P.X",  "P.Y",
@@ -95,7 +98,37 @@ void PixelHits::add(const FirstHit& hit, double distance) {
   add_share(materials, hit.material);
 }
 
+namespace {
+
+/// Where light of some wavelengths lies outside of sRGB, layers are negative, and may take each other away.
+/// What is missing goes to them from the largest to the smallest, to each as much as its last place can take.
+void apportion_signed(const double* layers, int count, float total, float* floats) {
+  double largest = std::abs(double(total)), missing = total;
+  for (int i = 0; i < count; ++i) largest = std::max(largest, std::abs(layers[i]));
+  // All become multiples of u, so that a double holds every sum of them: 44 bits below the largest.
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  const double u = std::ldexp(1.0, exponent - 44);
+  std::vector<int> by_size;
+  for (int i = 0; i < count; ++i) {
+    floats[i] = float(std::round(layers[i] / u) * u);
+    missing -= floats[i];
+    by_size.push_back(i);
+  }
+  std::stable_sort(by_size.begin(), by_size.end(),
+                   [&](int a, int b) { return std::abs(floats[a]) > std::abs(floats[b]); });
+  for (const int i : by_size) {
+    const float more = float(floats[i] + missing);
+    missing -= double(more) - double(floats[i]);
+    floats[i] = more;
+  }
+}
+
+}  // namespace
+
 void apportion(const double* layers, int count, float total, float* floats) {
+  if (std::isfinite(total) && std::any_of(layers, layers + count, [](double one) { return one < 0; }))
+    return apportion_signed(layers, count, total, floats);
   if (!(total > 0) || !std::isfinite(total)) {
     for (int i = 0; i < count; ++i) floats[i] = total == 0 ? 0.0f : float(layers[i]);
     return;
@@ -175,6 +208,9 @@ LayerBook::LayerBook(const Scene& scene, const LayerPlan& plan, int samples)
     list += (list.empty() ? "" : " ") + name;
   }
   metadata_.emplace_back("lambent:layers", list);
+  if (plan_.wavelengths > 0)
+    for (const double wavelength : scene.spectral.wavelengths)
+      channels_.push_back(wavelength_name(wavelength));
   channels_.insert(channels_.end(), std::begin(data_names), std::end(data_names));
   for (const std::string& name : object_names(scene)) object_ids_.push_back(cryptomatte_id(name));
   for (const std::string& name : material_names(scene)) material_ids_.push_back(cryptomatte_id(name));
@@ -223,6 +259,8 @@ void LayerBook::write(const double* sums, double samples, const PixelHits& hits,
                       float* pixel) const {
   write_layers(sums, samples, work, pixel);
   float* to = pixel + (plan_.count() + 1) * color_channels;
+  for (int i = 0; i < plan_.wavelengths; ++i)
+    *to++ = float(sums[plan_.count() * color_channels + i] / samples);
   const FirstHit& hit = hits.central;
   *to++ = hit.object < 0 ? std::numeric_limits<float>::infinity() : hit.R;
   for (const float n : hit.N) *to++ = n;
@@ -246,9 +284,11 @@ void LayerBook::merge(const float* const corners[4], float* pixel) const {
   };
   Work work;
   std::vector<double> layers;
-  const std::size_t data = std::size_t(plan_.count() + 1) * color_channels;
-  for (std::size_t i = color_channels; i < data; ++i) layers.push_back(mean(i));
+  const std::size_t after_layers = std::size_t(plan_.count() + 1) * color_channels,
+                    data = after_layers + std::size_t(plan_.wavelengths);
+  for (std::size_t i = color_channels; i < after_layers; ++i) layers.push_back(mean(i));
   write_layers(layers.data(), 1, work, pixel);
+  for (std::size_t i = after_layers; i < data; ++i) pixel[i] = float(mean(i));
   for (std::size_t i = data; i < data + data_count; ++i)
     pixel[i] =
         i >= data + first_albedo && i < data + first_albedo + color_channels ? float(mean(i)) : corners[0][i];

@@ -28,8 +28,8 @@ class PixelHits {
   double nearest_ = 0;
 };
 
-/// Channels, in this order: for each layer R, G, B; then Z, N, P, albedo, UV; then Cryptomatte's. What they
-/// mean is in docs/layers.md.
+/// Channels, in this order: for each layer R, G, B; then the wavelengths, where the picture is made of them;
+/// then Z, N, P, albedo, UV; then Cryptomatte's. What they mean is in docs/layers.md.
 class LayerBook {
  public:
   /// `samples`: the most that a pixel may get.
@@ -80,8 +80,10 @@ std::vector<std::string> material_names(const Scene& scene);
 /// Makes floats of the layers of one channel that add up to `total` exactly: in any order, in float or
 /// double. All become whole multiples of total's last place, u = ulp(total), so that no sum of them needs
 /// rounding; each by the nearest, and what is then missing or too much goes, u by u, to those that were
-/// rounded most. So a layer is off by u at most, 2^-23 of the pixel's own brightness. Layers and total must
-/// not be negative.
+/// rounded most. So a layer is off by u at most, 2^-23 of the pixel's own brightness.
+/// Where a layer is negative (light of few wavelengths lies outside of sRGB), layers may cancel, and no float
+/// may hold what a sum on its way comes to: there the sum in double, in any order, rounds to the pixel's
+/// float.
 void apportion(const double* layers, int count, float total, float* floats);
 
 /// MurmurHash3 (Austin Appleby, public domain), 32 bits with seed 0, which Cryptomatte prescribes.

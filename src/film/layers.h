@@ -29,11 +29,14 @@ struct LayerPlan {
   int lights = 0;
   bool reflection = false, refraction = false;  ///< Whether anything may come on these ways.
   bool fog = false;
+  int wavelengths = 0;                          ///< Of a picture that is made of them: each is kept, too.
 
   int ways() const { return 1 + reflection + refraction; }
   int per_way() const { return first_light + 2 * lights + fog; }
   int fog_layer() const { return first_light + 2 * lights; }  ///< Of a way; if there is fog.
   int count() const { return ways() * per_way(); }
+  /// The numbers of a pixel: each layer's channels, then the wavelengths.
+  int columns() const { return count() * color_channels + wavelengths; }
   /// The number of a way's first layer; the way must be there.
   int first_of(Way way) const {
     return way == Way::direct ? 0 : way == Way::refraction && reflection ? 2 * per_way() : per_way();

@@ -49,6 +49,7 @@ struct ModelInfo {
       false;  ///< Whether it reads Arriving::Il and Arriving::faded, which are not made for others.
   bool half_vector =
       false;  ///< Whether its highlight is by N.H; path tracing takes Blinn's lobe then, else Phong's.
+  bool measured = false;  ///< Whether it reads Surface::eta and Surface::k, likewise.
   ModelParameter parameters[max_model_parameters] = {};  ///< Ends with the first that has no name.
 };
 
@@ -61,6 +62,9 @@ template <class F, class C> struct Surface {
   F own[max_model_parameters];  ///< The model's own parameters, in the order of its table.
   F outside = F(1);             ///< 1 where V is on the outside of the surface, -1 on its inside.
   Vec3<F> to_camera{};  ///< Unit vector against the camera's view: to a viewer infinitely far behind it.
+  /// Where the model's info asks: the complex index of refraction eta + i k of what lies behind the surface
+  /// over that on V's side, for each channel.
+  C eta = grey<F, int(sizeof(C) / sizeof(F))>(F(1.5)), k = grey<F, int(sizeof(C) / sizeof(F))>(F(0));
 };
 
 /// One light, as it arrives at that point.

@@ -13,6 +13,13 @@
 
 namespace lambent {
 
+/// What Fresnel's equations are asked of.
+enum class Boundary : std::uint8_t {
+  none,   ///< Nothing: it reflects what it says.
+  metal,  ///< Opaque, with a complex index of refraction;
+  glass,  ///< or clear.
+};
+
 struct MaterialRecord {
   Rgb ambient, diffuse, specular, reflect, transmit, emission;
   double shininess, ior;
@@ -26,6 +33,9 @@ struct MaterialRecord {
   int scatter;               ///< For paths: ScatterKind.
   bool dark_inside;          ///< Its emission is seen from outside alone.
   bool white;                ///< Vertices do not colour it.
+  /// With one, `reflect` is a factor on what is reflected, `transmit` on the rest.
+  Boundary boundary;
+  Rgb eta, k;  ///< The complex index of refraction, for each channel.
 
   // For paint.h:
   const MaterialMap* maps;
@@ -106,6 +116,8 @@ inline constexpr std::uint32_t no_ray = ~std::uint32_t{0};
 struct SeenMaterial {
   Rgb ambient, diffuse, specular, emission, reflect, transmit;
   double shininess, ior;
+  Boundary boundary;
+  Rgb eta, k;
 };
 struct SeenHit {
   std::uint32_t ray;
@@ -202,6 +214,37 @@ struct EmitterTable;
 enum class Tracing { whitted, path };
 inline constexpr int tracing_count = 2;
 
+struct Frame;
+
+/// One go over the samples of a picture that is made of wavelengths: its frame's colours are one wavelength
+/// in each channel. Light of three goes together; where glass sends each its own way, of one, in all
+/// channels.
+struct Pass {
+  const Frame* frame;
+  int first, count;             ///< Of the picture's wavelengths.
+  Rgb weights[color_channels];  ///< What each of `count` channels adds to linear sRGB.
+  Rgb basis[color_channels];  ///< What of red, green and blue there is in each channel (spectra/spectrum.h).
+};
+
+inline namespace LAMBENT_ISA {
+
+/// Linear sRGB as a pass has it; the same as upsample() of spectra/spectrum.h.
+inline Rgb in_pass(const Pass& pass, const Rgb& color) {
+  Rgb result;
+  for (int c = 0; c < color_channels; ++c)
+    result[c] =
+        color[2] + pass.basis[c][0] * (color[0] - color[2]) + pass.basis[c][1] * (color[1] - color[2]);
+  return result;
+}
+/// What a colour of a pass adds to linear sRGB.
+inline Rgb from_pass(const Pass& pass, const Rgb& color) {
+  Rgb sum = color[0] * pass.weights[0];
+  for (int i = 1; i < pass.count; ++i) sum = sum + color[i] * pass.weights[i];
+  return sum;
+}
+
+}  // namespace LAMBENT_ISA
+
 struct Frame {
   Tracing tracing = Tracing::whitted;
   WorldView world;
@@ -239,6 +282,10 @@ struct Frame {
   PathSettings path;
   Attenuation path_attenuation{0, 0, 1};   ///< Of lights without extent, for paths.
   const EmitterTable* emitters = nullptr;  ///< Likewise for paths: emitters.h.
+  /// Of a picture that is made of wavelengths: its passes, in order.
+  const Pass* passes = nullptr;
+  int pass_count = 0;
+  const Pass* pass = nullptr;  ///< Of a pass's frame: the pass.
 };
 
 struct Pixel {
@@ -254,8 +301,7 @@ struct PixelTask {
   double* sums;  ///< color_channels for each pixel: the samples' colours are added to it, in their order.
   float*
       least_and_greatest;  ///< Null, or for each pixel the least of each channel so far, then the greatest.
-  double* layer_sums =
-      nullptr;  ///< Null, or frame.layers.count() times color_channels for each pixel, likewise.
+  double* layer_sums = nullptr;    ///< Null, or frame.layers.columns() for each pixel, likewise.
   FirstHit* first_hits = nullptr;  ///< Null, or for each pixel one for each of the samples asked for.
   double* squares = nullptr;       ///< Null, or for each pixel the sum of the squares of samples' luminance.
 };
@@ -313,6 +359,8 @@ struct Scratch {
   ColorQueue samples;
   Column<double> layers;  ///< Layer by layer, channel by channel, a batch of samples.
   std::uint32_t layer_columns = 0;
+  Column<double> totals;  ///< Of several passes: colours, then layers, likewise.
+  std::uint32_t total_columns = 0;
   Column<std::uint32_t> reaching;  ///< The points of lights that may reach some of the hits at hand.
   Column<std::uint32_t>
       open;  ///< For each of these and each packet of a block a bit for each lane that it reaches.

@@ -7,6 +7,7 @@
 // texture level of detail using ray cones, JCGT 10(1), 2021.)
 
 #include "accel/coordinates.h"
+#include "illumination/fresnel.h"
 #include "illumination/metallic_roughness.h"
 #include "integrators/frame.h"
 #include "integrators/texture_lookup.h"
@@ -204,6 +205,9 @@ inline Paint paint(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
     out.lobe = 2 * out.rough.roughness * out.rough.roughness;
   }
   out.ka = out.occlusion * out.ka;
+  if (frame.pass)
+    for (Rgb* color : {&out.ka, &out.kd, &out.ks, &out.emission, &out.reflect, &out.transmit})
+      *color = in_pass(*frame.pass, *color);
   const double opacity = out.opacity;
   if (out.gap || opacity == 1) return out;
   for (Rgb* color : {&out.ka, &out.kd, &out.ks, &out.emission, &out.reflect, &out.transmit})
@@ -225,11 +229,18 @@ inline bool is_gap(const Frame& frame, const HitIds<std::int32_t>& ids, std::uin
 inline Rgb share_through(const Frame& frame, const HitIds<std::int32_t>& ids, std::uint32_t material,
                          const SurfacePoint<double>& s, const Vec3<double>& d) {
   const MaterialRecord& m = frame.materials[material];
-  if (!m.painted && !m.gaps && !frame.world.geometries[ids.geometry].colors)
-    return frame.whitted.colored_shadows ? m.transmit : Rgb{};
-  const Paint here = paint(frame, ids, material, s.P, s.N, s.Ng, d, 0);
-  if (here.gap) return grey(1.0);
-  return frame.whitted.colored_shadows ? here.transmit : Rgb{};
+  Rgb share = m.transmit;
+  if (m.painted || m.gaps || frame.world.geometries[ids.geometry].colors) {
+    const Paint here = paint(frame, ids, material, s.P, s.N, s.Ng, d, 0);
+    if (here.gap) return grey(1.0);
+    share = here.transmit;
+  }
+  if (!frame.whitted.colored_shadows) return {};
+  // Straight on, so that light meets the far side at the angle that it had outside.
+  if (m.boundary == Boundary::glass)
+    for (int c = 0; c < color_channels; ++c)
+      share[c] *= 1 - fresnel_dielectric(min(abs(dot(s.Ng, d)), 1.0), m.eta[c]);
+  return share;
 }
 
 /// Where the picture around the scene is seen along a direction. Its middle lies along -z, before its turn; u
@@ -253,7 +264,7 @@ inline Rgb background_along(const Frame& frame, const Vec3<double>& along, doubl
   const Texel texel = look_up(e.texture, uv, footprint, map);
   Rgb color;
   for (int c = 0; c < color_channels; ++c) color[c] = frame.background[c] * texel.c[c];
-  return color;
+  return frame.pass ? in_pass(*frame.pass, color) : color;
 }
 
 }  // namespace LAMBENT_ISA

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "film/pattern.h"
+#include "illumination/fresnel.h"
 #include "integrators/ambient_occlusion.h"
+#include "integrators/spectral.h"
 #include "scattering/surface.h"
 #include "scene/uniform_material.h"
 
@@ -66,9 +68,38 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
   return record;
 }
 
+/// What its substance, or else its ior, makes of a material's record.
+void set_boundary(const Scene& scene, const Material& material, const Pass* pass, MaterialRecord& record) {
+  record.eta = grey(material.metallic_roughness ? material.metallic_roughness->ior : material.ior);
+  if (!material.substance) return;
+  const auto [eta, k] = index_of(*material.substance, scene, pass);
+  record.eta = eta, record.k = k;
+  record.boundary = std::holds_alternative<Metal>(*material.substance) ? Boundary::metal : Boundary::glass;
+  Rgb head_on;
+  for (int c = 0; c < color_channels; ++c) head_on[c] = fresnel_conductor_at_normal(eta[c], k[c]);
+  if (record.boundary == Boundary::metal) {
+    record.ambient = record.ambient * head_on;
+    record.diffuse = record.diffuse * head_on;
+  } else {
+    record.ior = eta[0];  // the same in all channels, or what stands for them
+  }
+  if (!info(model_of(scene, material)).measured) record.specular = record.specular * head_on;
+}
+
 /// As it is where nothing is painted on it; `before`: as painting begins.
-MaterialRecord material_record(const Scene& scene, const Material& material, const MaterialRecord& before) {
-  MaterialRecord record = unpainted(scene, uniform_material(material));
+MaterialRecord material_record(const Scene& scene, const Material& material, const Pass* pass,
+                               const MaterialRecord& before) {
+  Material plain = material;
+  if (pass) {
+    if (plain.metallic_roughness) {  // in red, green and blue, but for its opacity
+      plain.opacity = 1;
+      plain = uniform_material(plain);
+      plain.opacity = material.opacity;
+    }
+    plain = material_in_pass(scene, *pass, plain);
+  }
+  MaterialRecord record = unpainted(scene, uniform_material(plain));
+  set_boundary(scene, material, pass, record);
   record.maps = nullptr;  // the copy's
   record.scatter = before.scatter;
   if (before.is_rough) record.lobe = 2 * before.rough.roughness * before.rough.roughness;
@@ -85,19 +116,6 @@ TextureRecord texture_record(const Texture& texture) {
           texture.channels};
 }
 
-/// The materials of lights that stand in the world come after the scene's.
-void add_light_materials(const Scene& scene, const std::vector<StandingLight>& lights,
-                         PreparedFrame& prepared) {
-  for (const StandingLight& light : lights) {
-    MaterialRecord record = unpainted(scene, light.material);
-    record.light = int(light.light);
-    record.dark_inside = !light.two_sided;
-    prepared.frame.any_dark_inside |= record.dark_inside;
-    prepared.unpainted.push_back(record);
-    prepared.materials.push_back(record);
-  }
-}
-
 /// Vertices may paint what no map does; what they let through, their materials do.
 void note_vertex_colors(const Scene& scene, std::vector<MaterialRecord>& records) {
   for (const Object& object : scene.objects) {
@@ -109,6 +127,49 @@ void note_vertex_colors(const Scene& scene, std::vector<MaterialRecord>& records
       records[m].transmits |= !opaque;
       records[m].reflects |= records[m].is_rough;
     }
+  }
+}
+
+/// The materials of lights that stand in the world come after the scene's.
+void add_light_materials(const Scene& scene, const Pass* pass, const std::vector<StandingLight>& lights,
+                         PreparedFrame::Colored& colored) {
+  for (const StandingLight& light : lights) {
+    MaterialRecord record =
+        unpainted(scene, pass ? material_in_pass(scene, *pass, light.material) : light.material);
+    record.light = int(light.light);
+    record.dark_inside = !light.two_sided;
+    colored.unpainted.push_back(record);
+    colored.materials.push_back(record);
+  }
+}
+
+/// What of the frame has colours: in a pass, or as red, green and blue.
+void color(const Scene& scene, const Pass* pass, const PreparedFrame& prepared, Frame& frame,
+           PreparedFrame::Colored& colored) {
+  const bool is_white = scene.integrator == Integrator::ambient_occlusion;
+  if (!is_white)
+    for (const Light& light : scene.lights)
+      colored.lights.push_back(pass ? light_in_pass(scene, *pass, light) : light.light);
+  for (const Material& material : is_white ? prepared.white : scene.materials) {
+    // Painting is done in red, green and blue, and its result put into the pass.
+    colored.unpainted.push_back(unpainted(scene, material));
+    colored.unpainted.back().white = is_white;
+    colored.materials.push_back(material_record(scene, material, pass, colored.unpainted.back()));
+    set_boundary(scene, material, nullptr, colored.unpainted.back());
+    colored.unpainted.back().ior = colored.materials.back().ior;
+  }
+  if (!is_white) note_vertex_colors(scene, colored.materials);
+  add_light_materials(scene, pass, prepared.world.lights, colored);
+  frame.lights = colored.lights.data();
+  frame.materials = colored.materials.data();
+  frame.unpainted = colored.unpainted.data();
+  const Illumination& illumination = prepared.illumination;
+  frame.ambient = pass ? ambient_in_pass(scene, *pass) : illumination.ambient;
+  frame.background = is_white ? grey(1.0) : scene.background;
+  if (pass && !scene.background_image) frame.background = in_pass(*pass, scene.background);
+  if (!is_white) {
+    frame.fog = {pass ? in_pass(*pass, scene.fog.color) : scene.fog.color, scene.fog.density,
+                 scene.fog.start};
   }
 }
 
@@ -190,10 +251,11 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   frame.world = prepared->world.view();
   frame.any_transmits = prepared->world.any_transmits;
 
-  if (!is_white)
-    for (const Light& light : scene.lights) prepared->lights.push_back(light.light);
-  frame.lights = prepared->lights.data();
-  frame.light_count = int(prepared->lights.size());
+  prepared->illumination = is_white ? even_sky(scene.ambient_occlusion) : scene.illumination;
+  if (is_white)
+    for (const Material& material : scene.materials) prepared->white.push_back(whitened(material));
+  color(scene, nullptr, *prepared, frame, prepared->colored);
+  frame.light_count = int(prepared->colored.lights.size());
   for (int l = 0; l < frame.light_count; ++l)
     with_light(frame.lights[l], [&]<class L>(const L& light) {
       const int count = samples_of(light);
@@ -204,26 +266,15 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
     });
   frame.light_points = prepared->light_points.data();
   frame.light_point_count = int(prepared->light_points.size());
-  for (const AnyLight& light : prepared->lights)
+  for (const AnyLight& light : prepared->colored.lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
-  if (is_white)
-    for (const Material& material : scene.materials) prepared->white.push_back(whitened(material));
-  for (const Material& material : is_white ? prepared->white : scene.materials) {
-    prepared->unpainted.push_back(unpainted(scene, material));
-    prepared->unpainted.back().white = is_white;
-    prepared->materials.push_back(material_record(scene, material, prepared->unpainted.back()));
-  }
-  if (!is_white) note_vertex_colors(scene, prepared->materials);
-  add_light_materials(scene, prepared->world.lights, *prepared);
-  frame.materials = prepared->materials.data();
-  frame.unpainted = prepared->unpainted.data();
-  for (const MaterialRecord& record : prepared->unpainted) {
+  for (const MaterialRecord& record : prepared->colored.unpainted) {
+    frame.any_dark_inside |= record.dark_inside;
     frame.any_gaps |= record.gaps;
     frame.any_masks |= record.alpha == Alpha::mask && record.transmits;
   }
   for (const Texture& texture : scene.textures) prepared->textures.push_back(texture_record(texture));
   frame.textures = prepared->textures.data();
-  frame.background = is_white ? grey(1.0) : scene.background;
   if (scene.background_image && !is_white) {
     frame.environment.texture = prepared->textures[*scene.background_image];
     frame.environment.turn = scene.background_turn / 360;
@@ -237,7 +288,6 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   const double share = 1 / std::sqrt(double(sharing));
   frame.eye_width = share * 2 * frame.camera.spread_of_origins / frame.height;
   frame.eye_spread = share * 2 * frame.camera.spread_of_directions / frame.height;
-  if (!is_white) frame.fog = {scene.fog.color, scene.fog.density, scene.fog.start};
   frame.layers.fog = frame.fog.density > 0;
   frame.whitted = scene.whitted;
   if (is_white) frame.whitted.max_depth = 1;
@@ -248,15 +298,14 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
-        frame.layers.refraction |= prepared->materials[m].transmits;
-        frame.layers.reflection |= prepared->materials[m].reflects || prepared->materials[m].transmits;
+        const MaterialRecord& record = prepared->colored.materials[m];
+        frame.layers.refraction |= record.transmits;
+        frame.layers.reflection |= record.reflects || record.transmits;
       }
-  prepared->illumination = is_white ? even_sky(scene.ambient_occlusion) : scene.illumination;
   const Illumination& illumination = prepared->illumination;
   for (int model = 0; model < model_count; ++model)
     frame.fading[model] = {attenuation_of(illumination, ModelId(model)),
                            ambient_attenuation_of(illumination, ModelId(model))};
-  frame.ambient = illumination.ambient;
   if (illumination.occlusion) frame.occlusion = *illumination.occlusion;
   frame.minimum_distance = illumination.minimum_distance;
   if (scene.integrator == Integrator::path) {
@@ -265,6 +314,20 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
     if (scene.illumination.attenuation) frame.path_attenuation = *scene.illumination.attenuation;
     prepared->emitters = prepare_emitters(frame, prepared->world);
     frame.emitters = &prepared->emitters->table;
+  }
+  if (scene.integrator == Integrator::spectral) {
+    frame.layers.wavelengths = int(scene.spectral.wavelengths.size());
+    prepared->passes = passes_of(scene);
+    prepared->pass_frames.assign(prepared->passes.size(), frame);
+    prepared->pass_colored.resize(prepared->passes.size());
+    for (std::size_t p = 0; p < prepared->passes.size(); ++p) {
+      Frame& of_pass = prepared->pass_frames[p];
+      color(scene, &prepared->passes[p], *prepared, of_pass, prepared->pass_colored[p]);
+      of_pass.pass = &prepared->passes[p];
+      prepared->passes[p].frame = &of_pass;
+    }
+    frame.passes = prepared->passes.data();
+    frame.pass_count = int(prepared->passes.size());
   }
   return prepared;
 }
@@ -284,10 +347,10 @@ const PreparedFrame& Exposure::at(int slice) {
   return *prepared_;
 }
 
-std::vector<Pass> Exposure::passes() const {
-  std::vector<Pass> passes;
-  for (const Slice& slice : slices_) passes.push_back({int(passes.size()), slice.first, slice.end});
-  return passes;
+std::vector<Portion> Exposure::portions() const {
+  std::vector<Portion> portions;
+  for (const Slice& slice : slices_) portions.push_back({int(portions.size()), slice.first, slice.end});
+  return portions;
 }
 
 }  // namespace lambent

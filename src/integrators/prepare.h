@@ -9,18 +9,26 @@ namespace lambent {
 
 /// A frame and what it points at. It refers to the scene, which must outlive it.
 struct PreparedFrame {
+  /// What of a frame has colours.
+  struct Colored {
+    std::vector<AnyLight> lights;
+    std::vector<MaterialRecord> materials, unpainted;
+  };
   Frame frame;
   World world;
   TreeQuality tree_quality = TreeQuality::thorough;
   std::vector<Vec2<double>> pattern;
   Shutter shutter;  ///< Where something moves; otherwise without slices.
-  std::vector<AnyLight> lights;
+  Colored colored;
   std::vector<LightPoint> light_points;
   Illumination illumination;    ///< The scene's, or what the integrator puts in its place.
   std::vector<Material> white;  ///< What it puts in the place of the scene's materials; or empty.
-  std::vector<MaterialRecord> materials, unpainted;
   std::vector<TextureRecord> textures;
   std::unique_ptr<PreparedEmitters> emitters;  ///< Of paths.
+  /// Of a scene with `spectral`: frame.passes, and what they point at.
+  std::vector<Pass> passes;
+  std::vector<Frame> pass_frames;
+  std::vector<Colored> pass_colored;
 };
 
 /// Lays a scene out for the kernels; builds its trees. `time`: of the shutter's, from 0 to 1, where something
@@ -28,7 +36,7 @@ struct PreparedFrame {
 std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time = 0.5);
 
 /// Samples that are taken one after the other: of a slice, from `first` up to `end` in the frame's order.
-struct Pass {
+struct Portion {
   int slice, first, end;
 };
 
@@ -42,7 +50,7 @@ class Exposure {
   const PreparedFrame& at(int slice);
   const std::vector<Slice>& slices() const { return slices_; }
   /// All samples, slice by slice.
-  std::vector<Pass> passes() const;
+  std::vector<Portion> portions() const;
 
  private:
   const Scene& scene_;

@@ -41,6 +41,7 @@ void Scratch::grow(Column<double>& column, std::uint32_t capacity) { grow_column
 Scratch::~Scratch() {
   release(rays), release(next_rays), release(samples);
   std::free(layers.data);
+  std::free(totals.data);
   std::free(open.data);
   std::free(reaching.data);
 }

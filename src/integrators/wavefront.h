@@ -66,22 +66,30 @@ struct Wavefront {
   void follow_batches(int MaterialRecord::*way_to_shade, const Begin& begin, const Background& background,
                       const Shade& shade, const End& end) {
     for (std::uint64_t first = 0; first < sample_count(); first += batch_size) {
-      const auto count = std::uint32_t(min<std::uint64_t>(batch_size, sample_count() - first));
-      first_of_batch = first;
-      throw_eye_rays(first, count);
-      begin(count);
-      for (depth = 1; scratch.rays.count > 0; ++depth) {
-        trace(depth == 1);
-        if (frame.fog.density > 0) pass_fog();
-        sort_into_groups(way_to_shade, background);
-        if (depth == 1) counts.eye_hits += hit_count();
-        scratch.next_rays.count = 0;
-        shade();
-        RayQueue rays = scratch.rays;
-        scratch.rays = scratch.next_rays;
-        scratch.next_rays = rays;
-      }
+      const std::uint32_t count = size_of_batch(first);
+      follow_batch(first, count, way_to_shade, begin, background, shade);
       end(first, count);
+    }
+  }
+  std::uint32_t size_of_batch(std::uint64_t first) const {
+    return std::uint32_t(min<std::uint64_t>(batch_size, sample_count() - first));
+  }
+  template <class Begin, class Background, class Shade>
+  void follow_batch(std::uint64_t first, std::uint32_t count, int MaterialRecord::*way_to_shade,
+                    const Begin& begin, const Background& background, const Shade& shade) {
+    first_of_batch = first;
+    throw_eye_rays(first, count);
+    begin(count);
+    for (depth = 1; scratch.rays.count > 0; ++depth) {
+      trace(depth == 1);
+      if (frame.fog.density > 0) pass_fog();
+      sort_into_groups(way_to_shade, background);
+      if (depth == 1) counts.eye_hits += hit_count();
+      scratch.next_rays.count = 0;
+      shade();
+      RayQueue rays = scratch.rays;
+      scratch.rays = scratch.next_rays;
+      scratch.next_rays = rays;
     }
   }
 
@@ -503,6 +511,29 @@ struct Wavefront {
     return hits.painted ? hits.painted->transmit
                         : colors_of_materials(hits, [](const MaterialRecord& m) { return m.transmit; });
   }
+  /// How much of the light that comes along V is reflected, where Fresnel's equations say so; elsewhere 1.
+  C fresnel_of(const Hits& hits, bool any_metal, bool any_glass) const {
+    const F cosine = min(max(dot(hits.N, hits.V), F(0)), F(1));
+    const auto is = [&](Boundary boundary) {
+      return Truth(of_materials(hits, [boundary](const MaterialRecord& m) {
+                     return m.boundary == boundary ? 1.0 : 0.0;
+                   }) > F(0));
+    };
+    const C eta = colors_of_materials(hits, [](const MaterialRecord& m) { return m.eta; });
+    C w = grey(F(1));
+    if (any_metal) {
+      const C k = colors_of_materials(hits, [](const MaterialRecord& m) { return m.k; });
+      const Truth metal = is(Boundary::metal);
+      for (int c = 0; c < color_channels; ++c)
+        w[c] = select(metal, fresnel_conductor(cosine, eta[c], k[c]), w[c]);
+    }
+    if (any_glass) {
+      const Truth glass = is(Boundary::glass);
+      for (int c = 0; c < color_channels; ++c)
+        w[c] = select(glass, fresnel_dielectric(cosine, select(hits.outside, eta[c], F(1) / eta[c])), w[c]);
+    }
+    return w;
+  }
   F ior_of(const Hits& hits) const {
     return hits.painted ? hits.painted->ior
                         : of_materials(hits, [](const MaterialRecord& m) { return m.ior; });
@@ -680,13 +711,13 @@ struct Wavefront {
 
   void grow_layers() {
     if (!task.layer_sums) return;
-    const auto columns = std::uint32_t(frame.layers.count() * color_channels);
+    const auto columns = std::uint32_t(frame.layers.columns());
     if (scratch.layer_columns >= columns) return;
     Scratch::grow(scratch.layers, std::uint32_t(columns * layer_stride));
     scratch.layer_columns = columns;
   }
   void clear_layers(std::uint32_t count) {
-    if (task.first_hits)
+    if (task.first_hits && (!frame.pass || frame.pass->first == 0))
       for (std::uint32_t i = 0; i < count; ++i) task.first_hits[first_of_batch + i] = {};
     if (!task.layer_sums) return;
     for (int layer = 0; layer < frame.layers.count(); ++layer)
@@ -702,7 +733,7 @@ struct Wavefront {
       layer_column(layer, c)[sample] += scratch.rays.weight[c][ray] * color[c];
   }
   void add_layers_to_pixel(std::uint32_t pixel, std::uint32_t sample) const {
-    const int columns = frame.layers.count() * color_channels;
+    const int columns = frame.layers.columns();
     double* sums = task.layer_sums + std::size_t(pixel) * std::size_t(columns);
     for (int c = 0; c < columns; ++c) sums[c] += scratch.layers[std::size_t(c) * layer_stride + sample];
   }
@@ -727,7 +758,10 @@ struct Wavefront {
       first.P[0] = float(P.x), first.P[1] = float(P.y), first.P[2] = float(P.z);
       first.N[0] = float(N.x), first.N[1] = float(N.y), first.N[2] = float(N.z);
       first.uv[0] = float(uv.x), first.uv[1] = float(uv.y);
-      for (int c = 0; c < color_channels; ++c) first.albedo[c] = float(lane(albedo[c], k));
+      Rgb kd = lane_color(albedo, k);
+      if (frame.pass) kd = from_pass(*frame.pass, kd);
+      for (int c = 0; c < color_channels; ++c)  // passes add up
+        first.albedo[c] = float(frame.pass ? first.albedo[c] + kd[c] : kd[c]);
     }
   }
 

@@ -26,6 +26,15 @@ namespace {
 /// picture is made of.
 template <bool Seen> struct Work : Wavefront {
   void run() {
+    begin();
+    for (std::uint64_t first = 0; first < sample_count(); first += batch_size) {
+      const std::uint32_t count = size_of_batch(first);
+      follow_samples(first, count);
+      add_to_pixels(first, count);
+    }
+  }
+
+  void begin() {
     make_room();
     if (frame.light_point_count > 0 && !scratch.open.data) {
       Scratch::grow(scratch.open, std::uint32_t(frame.light_point_count) * beam);
@@ -34,14 +43,17 @@ template <bool Seen> struct Work : Wavefront {
     if constexpr (Seen) grow_layers();
     point_count = frame.light_point_count;
     for (int p = 0; p < point_count; ++p) scratch.reaching[p] = std::uint32_t(p);
-    follow_batches(
-        &MaterialRecord::model, [&](std::uint32_t count) { begin_batch(count); },
+  }
+
+  /// A batch, until the colours of its samples are known.
+  void follow_samples(std::uint64_t first, std::uint32_t count) {
+    follow_batch(
+        first, count, &MaterialRecord::model, [&](std::uint32_t n) { begin_batch(n); },
         [&](std::uint32_t ray) { see_background(ray); },
         [&] {
           if (frame.lights_have_limits && hit_count() > 0) choose_lights();
           for_each_group([&](int group) { shade_group(group, depth < frame.whitted.max_depth); });
-        },
-        [&](std::uint64_t first, std::uint32_t count) { add_to_pixels(first, count); });
+        });
   }
 
   void begin_batch(std::uint32_t count) {
@@ -127,6 +139,16 @@ template <bool Seen> struct Work : Wavefront {
         s.own[i] = of_materials(hits, [&](const MaterialRecord& m) { return m.own[i]; });
     s.outside = select(hits.outside, F(1), F(-1));
     s.to_camera = -broadcast<F>(frame.camera.forward);
+    if constexpr (Model::info.measured) {
+      // From inside of glass the index of what lies beyond is that of air over its own.
+      const Truth turned =
+          both(Truth(!hits.outside), Truth(of_materials(hits, [](const MaterialRecord& m) {
+                                             return m.boundary == Boundary::glass ? 1.0 : 0.0;
+                                           }) > F(0)));
+      const C eta = colors_of_materials(hits, [](const MaterialRecord& m) { return m.eta; });
+      for (int c = 0; c < color_channels; ++c) s.eta[c] = select(turned, F(1) / eta[c], eta[c]);
+      s.k = colors_of_materials(hits, [](const MaterialRecord& m) { return m.k; });
+    }
 
     const FadingRecord& fading = frame.fading[int(id_of<Model>)];
     const F minimum(frame.minimum_distance);
@@ -286,17 +308,28 @@ template <bool Seen> struct Work : Wavefront {
   // ---- mirror rays and refracted rays
 
   LAMBENT_FLATTEN void follow(const Lanes& at, const Hits& hits) {
-    bool reflects = false, transmits = false;
+    bool reflects = false, transmits = false, any_metal = false, any_glass = false;
     for (int k = 0; k < at.count; ++k) {
       const MaterialRecord& m = frame.materials[hits.material[k]];
       reflects |= m.reflects, transmits |= m.transmits;
+      any_metal |= m.boundary == Boundary::metal, any_glass |= m.boundary == Boundary::glass;
     }
     if (!reflects && !transmits) return;
 
     C weight;
     for (int c = 0; c < color_channels; ++c) weight[c] = at.load(scratch.rays.weight[c]);
     C mirrored = reflect_of(hits);
-    const C through = transmit_of(hits);
+    C through = transmit_of(hits);
+    if (any_metal || any_glass) {
+      const C w = fresnel_of(hits, any_metal, any_glass);
+      mirrored = w * mirrored;
+      if (any_glass) {
+        const Truth glass = of_materials(hits, [](const MaterialRecord& m) {
+                              return m.boundary == Boundary::glass ? 1.0 : 0.0;
+                            }) > F(0);
+        through = select(glass, (grey(F(1)) - w) * through, through);
+      }
+    }
     // Rays are asked for where the material does either.
     const Truth concerned = both(at.active, Truth(of_materials(hits, [](const MaterialRecord& m) {
                                                     return m.reflects || m.transmits ? 1.0 : 0.0;
@@ -402,6 +435,7 @@ template <bool Seen> struct Work : Wavefront {
     const RayQueue& rays = scratch.rays;
     for (int k = 0; k < at.count; ++k) {
       const std::uint32_t ray = at.ray[k];
+      const MaterialRecord& m = frame.materials[hits.material[k]];
       frame.witness->hit(frame.witness->self,
                          {rays.number[ray],
                           rays.instance[ray],
@@ -421,7 +455,7 @@ template <bool Seen> struct Work : Wavefront {
                           {lane_color(ambient_of(hits), k), lane_color(diffuse_of(hits), k),
                            lane_color(specular_of(hits), k), lane_color(emission_of(hits), k),
                            lane_color(reflect_of(hits), k), lane_color(transmit_of(hits), k),
-                           lane(shininess_of(hits), k), lane(ior_of(hits), k)}});
+                           lane(shininess_of(hits), k), lane(ior_of(hits), k), m.boundary, m.eta, m.k}});
     }
   }
   /// What `arriving` in shade() makes of a light, number by number.
@@ -452,17 +486,89 @@ template <bool Seen> struct Work : Wavefront {
   }
 };
 
+/// A picture of wavelengths: each batch of samples goes once through every pass. What the passes bring is
+/// added up in linear sRGB, sample by sample, so that from there on it is a picture as any other.
+template <bool Seen> struct Passes : Wavefront {
+  void run() {
+    make_room();
+    grow_layers();
+    grow_totals();
+    for (std::uint64_t first = 0; first < sample_count(); first += batch_size) {
+      const std::uint32_t count = size_of_batch(first);
+      for (int column = 0; column < total_columns(); ++column)
+        for (std::uint32_t i = 0; i < count; ++i) total(column)[i] = 0;
+      for (int p = 0; p < frame.pass_count; ++p) {
+        Work<Seen> work{{*frame.passes[p].frame, task, scratch, counts}};
+        work.begin();
+        work.follow_samples(first, count);
+        add_pass(frame.passes[p], count);
+      }
+      for (int c = 0; c < color_channels; ++c) take(total(c), scratch.samples.color[c].data, count);
+      for (int c = color_channels; c < total_columns(); ++c)
+        take(total(c), &scratch.layers[std::size_t(c - color_channels) * layer_stride], count);
+      add_to_pixels(first, count);
+    }
+  }
+
+ private:
+  int total_columns() const { return color_channels + (task.layer_sums ? frame.layers.columns() : 0); }
+  double* total(int column) const { return &scratch.totals[std::size_t(column) * layer_stride]; }
+  static void take(const double* from, double* to, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) to[i] = from[i];
+  }
+
+  void grow_totals() const {
+    const auto columns = std::uint32_t(total_columns());
+    if (scratch.total_columns >= columns) return;
+    Scratch::grow(scratch.totals, std::uint32_t(columns * layer_stride));
+    scratch.total_columns = columns;
+  }
+
+  /// What the columns of one color bring to those of a total; the same as from_pass().
+  static void add(const Pass& pass, const double* const channels[color_channels], double* const totals[],
+                  std::uint32_t count) {
+    for (int c = 0; c < color_channels; ++c)
+      for (std::uint32_t i = 0; i < count; ++i) {
+        double sum = channels[0][i] * pass.weights[0][c];
+        for (int k = 1; k < pass.count; ++k) sum = sum + channels[k][i] * pass.weights[k][c];
+        totals[c][i] += sum;
+      }
+  }
+
+  void add_pass(const Pass& pass, std::uint32_t count) const {
+    const double* channels[color_channels];
+    double* totals[color_channels];
+    for (int c = 0; c < color_channels; ++c)
+      channels[c] = scratch.samples.color[c].data, totals[c] = total(c);
+    add(pass, channels, totals, count);
+    if (!task.layer_sums) return;
+    const int wavelengths = color_channels + frame.layers.count() * color_channels;
+    for (int k = 0; k < pass.count; ++k) take(channels[k], total(wavelengths + pass.first + k), count);
+    for (int layer = 0; layer < frame.layers.count(); ++layer) {
+      for (int c = 0; c < color_channels; ++c)
+        channels[c] = layer_column(layer, c), totals[c] = total(color_channels * (layer + 1) + c);
+      add(pass, channels, totals, count);
+    }
+  }
+};
+
+template <template <bool> class Job>
+void render_seen_or_not(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) {
+  if (frame.witness || task.layer_sums || task.first_hits) {
+    Job<true> job{{frame, task, scratch, counts}};
+    job.run();
+  } else {
+    Job<false> job{{frame, task, scratch, counts}};
+    job.run();
+  }
+}
+
 }  // namespace
 
 RenderPixels render_whitted;
 void render_whitted(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) {
-  if (frame.witness || task.layer_sums || task.first_hits) {
-    Work<true> work{{frame, task, scratch, counts}};
-    work.run();
-  } else {
-    Work<false> work{{frame, task, scratch, counts}};
-    work.run();
-  }
+  if (frame.pass_count > 0) render_seen_or_not<Passes>(frame, task, scratch, counts);
+  else render_seen_or_not<Work>(frame, task, scratch, counts);
 }
 
 }  // namespace LAMBENT_ISA

@@ -19,6 +19,7 @@
 #include "math/transform.h"
 #include "parameters/parameter.h"
 #include "scene/texture.h"
+#include "spectra/optical.h"
 
 namespace lambent {
 
@@ -163,6 +164,7 @@ inline constexpr Parameter<Fog> parameters_of<Fog>[] = {
 struct Illumination {
   ModelId model = ModelId::phong;
   Rgb ambient{1, 1, 1};                                   ///< Ia.
+  std::map<std::string, Spectrum> spectra;                ///< Of colours that are given as spectra.
   std::optional<Attenuation> attenuation;                 ///< Unset: the model's own.
   std::optional<AmbientAttenuation> ambient_attenuation;  ///< Likewise.
   double minimum_distance = 1e-3;
@@ -247,6 +249,12 @@ inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
      "Another number makes another picture of the same: other noise."},
 };
 
+/// Wavelengths in the place of red, green and blue; rays are followed as WhittedSettings say.
+inline constexpr int usual_wavelengths = 12, most_wavelengths = 360;
+struct SpectralSettings {
+  std::vector<double> wavelengths = even_wavelengths(usual_wavelengths);  ///< In nm, growing.
+};
+
 /// What a debug view makes a colour of: something about what the eye's ray meets first, or how many rays were
 /// asked. The formulas are in integrators/view.h.
 enum class View { normals, depth, uv, primitives, objects, materials, rays, cosine };
@@ -295,6 +303,17 @@ inline constexpr Parameter<MetallicRoughness> parameters_of<MetallicRoughness>[]
     {"clearcoat_roughness", &MetallicRoughness::clearcoat_roughness, zero_to_one, "", "Its own roughness."},
 };
 
+/// What a surface is made of, where that has been measured: Fresnel's equations say how much it reflects.
+struct Metal {
+  std::string name;  ///< Empty: its constants are the scene's own.
+  MetalConstants constants;
+};
+struct Glass {
+  std::string name;  ///< Likewise.
+  GlassIndex index;
+};
+using Substance = std::variant<Metal, Glass>;
+
 /// What becomes of a surface's opacity.
 enum class Alpha : std::uint8_t {
   blend,  ///< What is not opaque shows what lies behind, straight on.
@@ -320,9 +339,15 @@ struct Material {
   bool one_sided = false;  ///< Rays that come from inside do not see it. It casts shadows all the same.
   /// In place of ambient, diffuse, specular, shininess, reflect, transmit and ior.
   std::optional<MetallicRoughness> metallic_roughness;
-  std::vector<MaterialMap> maps;      ///< Any number; of those of one slot, all multiply.
-  std::optional<ModelId> model;       ///< Unset: the scene's.
-  std::map<std::string, double> own;  ///< The models' own parameters that the file gives, by name.
+  /// Its ior is the substance's then; ambient and diffuse are factors on what a metal reflects at normal
+  /// incidence, reflect and, in wavelength_specular, specular on what is reflected at the angle at hand, and
+  /// transmit on the rest.
+  std::optional<Substance> substance;
+  double roughness = 0;                     ///< Of the substance.
+  std::vector<MaterialMap> maps;            ///< Any number; of those of one slot, all multiply.
+  std::optional<ModelId> model;             ///< Unset: the scene's.
+  std::map<std::string, double> own;        ///< The models' own parameters that the file gives, by name.
+  std::map<std::string, Spectrum> spectra;  ///< Of colours that are given as spectra, by parameter.
 };
 /// Whether light can go through it somewhere: by `transmit`, by what is not opaque of it, or through gaps.
 bool may_transmit(const Material& material);
@@ -471,6 +496,7 @@ struct Light {
   std::string name;
   Place place;
   AnyLight light;
+  std::map<std::string, Spectrum> spectra;  ///< Of colours that are given as spectra, by parameter.
 };
 
 /// What a turntable turns about.
@@ -479,7 +505,7 @@ struct Axis {
 };
 
 /// Who makes the picture of the scene.
-enum class Integrator { whitted, view, path, ambient_occlusion };
+enum class Integrator { whitted, spectral, path, ambient_occlusion, view };
 
 struct Scene {
   std::string name;  ///< The input's file name, without its folder.
@@ -489,7 +515,8 @@ struct Scene {
   Illumination illumination;
   Integrator integrator = Integrator::whitted;
   // The settings of each.
-  WhittedSettings whitted;  ///< With a view: the rays that View::rays counts.
+  WhittedSettings whitted;  ///< With a view: the rays that View::rays counts; with `spectral` its rays.
+  SpectralSettings spectral;
   ViewSettings view;
   PathSettings path;
   AmbientOcclusion ambient_occlusion;  ///< Of the integrator; that of the ambient term is in `illumination`.

@@ -27,4 +27,23 @@ Material uniform_material(const Material& material) {
   return out;
 }
 
+Material seen_head_on(const Material& material) {
+  if (!material.substance) return material;
+  Material out = material;
+  Rgb reflected;
+  if (const auto* metal = std::get_if<Metal>(&*material.substance)) {
+    const RgbConstants rgb = rgb_constants(metal->constants);
+    for (int c = 0; c < 3; ++c) reflected[c] = normal_reflectance(rgb.n[c], rgb.k[c]);
+    out.ambient = out.ambient * reflected, out.diffuse = out.diffuse * reflected;
+  } else {
+    out.ior = index_at(std::get<Glass>(*material.substance).index, line_d);
+    reflected = grey(normal_reflectance(out.ior, 0));
+    out.transmit = out.transmit * (grey(1.0) - reflected);
+  }
+  out.specular = out.specular * reflected;
+  out.reflect = out.reflect * reflected;
+  out.substance.reset();
+  return out;
+}
+
 }  // namespace lambent

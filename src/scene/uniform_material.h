@@ -13,4 +13,8 @@ MetallicRoughnessOf<double, Rgb> numbers_of(const MetallicRoughness& material);
 /// are as they were; a mask too, as it is all there or not at all.
 Material uniform_material(const Material& material);
 
+/// What a metal or a glass is to those who know neither: what it reflects at normal incidence stands in its
+/// colours. Other materials are as they were.
+Material seen_head_on(const Material& material);
+
 }  // namespace lambent

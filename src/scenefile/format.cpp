@@ -185,20 +185,37 @@ std::string sentence_of(MapSlot slot) {
   return text + (slot >= MapSlot::base_color ? " of `metallic_roughness`." : ".");
 }
 
+/// "gold, silver, copper".
+template <class Named> std::string names_in_words(const std::vector<Named>& list) {
+  std::string text;
+  for (const Named& one : list) text += (text.empty() ? "" : ", ") + std::string(one.name);
+  return text;
+}
+
 Section material_section(const std::vector<Section>& models) {
-  Section material =
-      section("material", "what a surface does with light",
-              std::vector{choice("model", names_of(models), "",
-                                 "The illumination model; the scene's where not given.")} +
-                  fields_of<Material>() +
-                  std::vector{choice("alpha", names_of<Alpha>(), text_of(Material{}.alpha),
-                                     "What becomes of opacity: `blend` shows through, `mask` cuts out."),
-                              field("metallic_roughness", FieldType::section, "",
-                                    "In place of ambient, diffuse, specular, shininess, reflect, transmit "
-                                    "and ior."),
-                              field("maps", FieldType::section, "",
-                                    "Images on the surface, each of which multiplies what it is named "
-                                    "after.")});
+  Section material = section(
+      "material", "what a surface does with light",
+      std::vector{
+          choice("model", names_of(models), "", "The illumination model; the scene's where not given.")} +
+          fields_of<Material>() +
+          std::vector{choice("alpha", names_of<Alpha>(), text_of(Material{}.alpha),
+                             "What becomes of opacity: `blend` shows through, `mask` cuts out."),
+                      field("metal", FieldType::substance, "",
+                            "What it is made of, by its measured n and k: " + names_in_words(metals()) +
+                                "; or a mapping with a table of one's own."),
+                      field("glass", FieldType::substance, "",
+                            "What clear material it is, by its measured index of refraction: " +
+                                names_in_words(glasses()) + "; or a mapping."),
+                      with(field("roughness", FieldType::number, "0",
+                                 "Of a `metal` or a `glass`: 0 for a mirror, 1 for a surface without "
+                                 "any gloss. (The model `povray` has one of its own.)"),
+                           {0, 1e6}, ""),
+                      field("metallic_roughness", FieldType::section, "",
+                            "In place of ambient, diffuse, specular, shininess, reflect, transmit "
+                            "and ior."),
+                      field("maps", FieldType::section, "",
+                            "Images on the surface, each of which multiplies what it is named "
+                            "after.")});
   for (const Section& model : models)
     for (const Field& own : model.fields)
       if (find(material.fields, own.name) == nullptr) material.fields.push_back(own);
@@ -225,6 +242,45 @@ Format make_format() {
   f.fog.equation = "exp(-density t) colour + (1 - exp(-density t)) color";
   f.metallic_roughness = section("metallic_roughness", "a material as glTF and modelling programs have it",
                                  fields_of<MetallicRoughness>());
+  const Range seen{shortest_wavelength, longest_wavelength};
+  const Field wavelengths =
+      with(required("wavelengths", FieldType::numbers, "Wavelengths at which something is known, growing."),
+           seen, "nm");
+  f.metal =
+      section("metal", "a metal by its complex index of refraction n + i k",
+              {wavelengths,
+               with(required("n", FieldType::numbers, "n at each of them; straight lines between them."),
+                    {1e-3, 100}, ""),
+               with(required("k", FieldType::numbers, "k at each of them."), {0, 100}, "")});
+  Field loose = wavelengths;
+  loose.required = false;
+  f.glass = section(
+      "glass", "something clear by its index of refraction",
+      {with(field("ior", FieldType::number, "1.5", "The index at 587.6 nm, the line d."), {1, 10}, ""),
+       with(field(
+                "abbe", FieldType::number, "",
+                "The Abbe number (n_d - 1) / (n_F - n_C): the smaller, the more it disperses. Not given: not "
+                "at all."),
+            {5, 1000}, ""),
+       loose,
+       with(field("n", FieldType::numbers, "", "The index at each of `wavelengths`, in place of the two."),
+            {1, 10}, "")});
+  f.spectrum = section(
+      "spectrum", "a colour by what it is at every wavelength",
+      {with(field("blackbody", FieldType::number, "",
+                  "The light of a black body of this temperature, as bright as white."),
+            {500, 1e5}, "kelvin"),
+       loose,
+       with(field("values", FieldType::numbers, "",
+                  "At each of `wavelengths` a factor on white light: what a surface reflects, a filter lets "
+                  "through."),
+            at_least_zero, ""),
+       with(
+           field("power", FieldType::numbers, "",
+                 "At each of `wavelengths` the power of a lamp, in any unit; it is made as bright as white."),
+           at_least_zero, ""),
+       with(field("intensity", FieldType::number, "1", "A factor on `blackbody` or `power`."), at_least_zero,
+            "")});
   f.maps = section("maps", "images on a surface", {});
   for (const auto& [word, slot] : words_of<MapSlot>)
     f.maps.fields.push_back(field(word, FieldType::map, "", sentence_of(slot)));
@@ -324,10 +380,20 @@ Format make_format() {
   occlusion.equation = "A = 1 / pi  integral over the directions L above P of  V(P, L) (N.L)+ dL";
   occlusion.source =
       "Zhukov, Iones, Kronin, An ambient light illumination model, Eurographics Workshop on Rendering 1998";
-  f.integrators = {whitted, path, occlusion, view};
+  Section spectral = section(
+      "spectral", "the same for each of a set of wavelengths, in place of red, green and blue",
+      {with(field("wavelengths", FieldType::wavelengths, std::to_string(usual_wavelengths),
+                  "How many, the middles of equal parts of 375 to 735 nm; or a list of them, growing."),
+            seen, "nm")});
+  spectral.source =
+      "observer and white: CIE 1931 and D65; colours as spectra: Mallett and Yuksel, Spectral primary "
+      "decomposition for rendering with sRGB reflectance, EGSR 2019";
+  for (const Field& one : whitted.fields) spectral.fields.push_back(one);
+  f.integrators = {whitted, spectral, path, occlusion, view};
   f.integrator = section(
       "integrator", "how rays are followed, and what is shown of them: one of these",
       {field("whitted", FieldType::section, "", "Rays from the eye, mirrored and refracted on."),
+       field("spectral", FieldType::section, "", "The same with wavelengths in place of three colours."),
        field("path", FieldType::section, "", "All light there is, by chance: the rendering equation."),
        field("ambient_occlusion", FieldType::section, "",
              "No lights and no colours: how open to the sky each place is."),
@@ -456,6 +522,12 @@ std::string type_name(FieldType type) {
       return "color or mapping";
     case FieldType::map:
       return "file name or mapping";
+    case FieldType::substance:
+      return "name or mapping";
+    case FieldType::numbers:
+      return "list of numbers";
+    case FieldType::wavelengths:
+      return "integer or list of numbers";
     case FieldType::transform:
     case FieldType::motion:
       return "step or list of steps";

@@ -37,6 +37,9 @@ enum class FieldType {
   material,     // a name or a mapping
   background,   // a color or a mapping
   map,          // a file's name or a mapping
+  substance,    // a name or a mapping
+  numbers,      // a list of numbers
+  wavelengths,  // how many, or a list of them
   transform,    // a step or a list of steps
   motion,       // likewise
   section,      // a mapping with fields of its own
@@ -66,6 +69,7 @@ struct Section {
 struct Format {
   Section top, camera, image, film, samples, adaptive, illumination, attenuation, integrator, material;
   Section background, fog, ambient_occlusion, maps, map, metallic_roughness;
+  Section metal, glass, spectrum;
   Field material_name;  ///< What an entry of `materials` has beside the fields of `material`.
   std::vector<Section> integrators, models, lights, shapes;
   Section light, object;  ///< What every light and object may say beside its kind.

@@ -7,6 +7,7 @@
 #include "lambent/lambent.h"
 #include "scenefile/format.h"
 #include "scenefile/nearest.h"
+#include "spectra/optical.h"
 
 namespace lambent {
 namespace {
@@ -107,7 +108,7 @@ at once, with line and column. For completion and checks while you type, point y
 ```
 
 Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera), [background](#background), [fog](#fog), [image](#image), [film](#film), [illumination](#illumination),
-[models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [objects](#objects), [shapes](#shapes),
+[models](#models), [integrator](#integrator), [lights](#lights), [materials](#materials), [spectra](#spectra), [objects](#objects), [shapes](#shapes),
 [transforms](#transforms), [motion](#motion), [values from the command line](#values-from-the-command-line), [model files](#model-files).
 
 ## Conventions
@@ -116,7 +117,8 @@ Contents: [conventions](#conventions), [top level](#top-level), [camera](#camera
 - The camera looks from `eye` to `target`; `fov` is the vertical field of view. Row 0 of the picture is the top.
 - One sample per pixel goes through the pixel's centre. `max_depth` counts the ray from the eye as 1.
 - Colours are linear: 1 is white, 0.5 reflects half the light. A colour is `[r, g, b]`, one number for grey, or `"#rrggbb"` in
-  sRGB, as picked on a screen. The quotes are needed: in YAML an unquoted `#` begins a comment.
+  sRGB, as picked on a screen. The quotes are needed: in YAML an unquoted `#` begins a comment. Or it is a
+  [spectrum](#spectra): `{blackbody: 3000}`.
 - Numbers are decimal: `16`, `0.5`, `-1e-3`. Infinity and NaN are errors. Coordinates and lengths reach up to 1e10, all other
   numbers up to 1e18, so that single precision can hold what is made of them.
 - Directions may have any length but zero. Positive lengths are at least 1e-10.
@@ -235,6 +237,50 @@ constexpr const char* occlusion_integrator_text =
 their only light. The materials' colours, the lights and the background do not count; cut-outs (`alpha: mask`), `one_sided`, normal and bump
 maps do. Directions are chosen as for the ambient term (above), `rays` of them for each sample. `image.samples` is 64 for it where not given.
 
+)";
+
+constexpr const char* spectral_text =
+    R"(`spectral` follows rays as `whitted` does, for wavelengths in place of three colours. `wavelengths: 12` are 390, 420, ... 720 nm. Colours that are not
+[spectra](#spectra) become some: sums of three smooth ones that add up to 1 and look like sRGB's primaries in D65 (Mallett and Yuksel, 2019).
+Each wavelength brings what the CIE 1931 observer (2 degrees) sees of D65 there, with straight lines between the wavelengths: white and grey are
+the same with any wavelengths, whatever their number. Saturated colours come out the nearer, the more there are: with 12 to
+3 hundredths, with 36 to 4 thousandths. Three wavelengths are followed together, but where a glass disperses, each by itself. Light of few wavelengths lies outside of
+sRGB: an EXR then holds negative numbers, a PNG none. With layers there is a channel for each wavelength.
+
+)";
+
+constexpr const char* spectra_text =
+    R"(Wherever a colour stands, a spectrum may stand: a mapping that says what there is at every wavelength.
+
+    lights:
+      - {name: bulb, point: {position: [0, 3, 0], color: {blackbody: 2856}, intensity: 5}}
+      - {name: laser, point: {position: [2, 3, 0], color: {wavelengths: [529, 532, 535], power: [0, 1, 0]}}}
+    materials:
+      - {name: leaf, diffuse: {wavelengths: [450, 500, 550, 600, 680, 720], values: [0.04, 0.06, 0.16, 0.08, 0.04, 0.45]}}
+
+Between the wavelengths it runs straight, beyond them it stays as it is. `spectral` takes it as it is; all other integrators, and colours
+that maps, vertices or `metallic_roughness` take part in, take the colour that it has in sRGB.
+
+)";
+
+constexpr const char* substance_text =
+    R"(`metal` and `glass` say what a surface is made of. How much it reflects follows from Fresnel's equations, exact for metals (with n and k)
+and for glass, at the angle at hand; what glass does not reflect goes through, refracted by its index. `reflect` is a factor on the one, `transmit` on
+the other, `specular` on the highlight, whose model is `wavelength_specular` unless another is named. What is not given follows from `roughness`: the numbers
+of a `metallic_roughness` material whose reflection is that of the substance, with a mirror ray where it is smooth; a metal's `ambient` and `diffuse` are
+factors on what it reflects head on.
+
+    materials:
+      - {name: ring, metal: gold, roughness: 0.2}
+      - {name: prism, glass: sf11}
+      - {name: window, glass: {ior: 1.52, abbe: 60}}
+      - {name: alloy, metal: {wavelengths: [400, 550, 700], n: [1.4, 0.9, 0.3], k: [2.0, 2.5, 3.9]}}
+
+With `spectral` every wavelength has its own n and k. Elsewhere a metal has n and k for red, green and blue: n is the mean over what the channel sees, k
+is such that head on the metal has the colour of its spectrum in D65; a glass has its index at 587.6 nm, and does not disperse.
+
+| metal | source |
+|---|---|
 )";
 
 constexpr const char* view_text =
@@ -368,8 +414,9 @@ std::string scene_manual() {
       "brings the attenuations "
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
-  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) +
-          path_text + occlusion_integrator_text + view_text;
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + path_text +
+          "### Wavelengths\n\n" + spectral_text + "### Openness and views\n\n" + occlusion_integrator_text +
+          view_text;
   text +=
       "## Lights\n\n`lights` is a list. A light has a name, if you like, and one kind:\n\n```yaml\nlights:\n "
       " - {name: lamp, point: "
@@ -380,10 +427,18 @@ std::string scene_manual() {
       "its place, without a "
       "name.\n\n" +
       table(named.fields);
-  text += std::string(materials_text) + "### `metallic_roughness`\n\n" + rough_text +
-          table(f.metallic_roughness.fields);
+  text += std::string(materials_text) + "### `metal` and `glass`\n\n" + substance_text;
+  for (const NamedMetal& metal : metals()) text += fmt::format("| `{}` | {} |\n", metal.name, metal.source);
+  text += "\n| glass | | index at d | Abbe number | source |\n|---|---|---|---|---|\n";
+  for (const NamedGlass& glass : glasses())
+    text += fmt::format("| `{}` | {} | {:.5f} | {:.2f} | {} |\n", glass.name, glass.title,
+                        index_at(glass.index, line_d), abbe_of(glass.index), glass.source);
+  text += "\nA metal written out:\n\n" + table(f.metal.fields) + "A glass written out:\n\n" +
+          table(f.glass.fields);
+  text += "### `metallic_roughness`\n\n" + rough_text + table(f.metallic_roughness.fields);
   text += "### `maps`\n\n" + std::string(maps_text) + table(f.maps.fields) + "A map written out:\n\n" +
           table(f.map.fields);
+  text += "## Spectra\n\n" + std::string(spectra_text) + table(f.spectrum.fields);
   text +=
       "## Objects\n\n`objects` is a list. An object is one shape, with a material and a transform if you "
       "like:\n\n```yaml\nobjects:\n  "

@@ -34,9 +34,10 @@ inline constexpr std::pair<const char*, Attenuation> words_of<Attenuation>[] = {
 template <>
 inline constexpr std::pair<const char*, Integrator> words_of<Integrator>[] = {
     {"whitted", Integrator::whitted},
-    {"view", Integrator::view},
+    {"spectral", Integrator::spectral},
     {"path", Integrator::path},
-    {"ambient_occlusion", Integrator::ambient_occlusion}};
+    {"ambient_occlusion", Integrator::ambient_occlusion},
+    {"view", Integrator::view}};
 template <>
 inline constexpr std::pair<const char*, View> words_of<View>[] = {
     {"normals", View::normals}, {"depth", View::depth},

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "illumination/metallic_roughness.h"
 #include "import/paths.h"
+#include "scene/uniform_material.h"
 #include "scenefile/map_settings.h"
 #include "scenefile/nearest.h"
 #include "scenefile/shape_settings.h"
@@ -68,6 +70,130 @@ void read_rough(Reader& reader, const Values& material, const Value& value, Mate
   for (const char* other : {"ambient", "diffuse", "specular", "shininess", "reflect", "transmit", "ior"})
     if (const Value* one = material.find(other))
       reader.error(*one->key, one->label + " stands beside 'metallic_roughness'", "which takes its place");
+}
+
+/// A table of one number or of several against wavelength: as many as there are wavelengths.
+std::optional<Samples> read_column(Reader& reader, const Value& value, const Range& range,
+                                   const std::vector<double>& wavelengths) {
+  auto numbers = reader.numbers(value, range);
+  if (!numbers) return {};
+  if (numbers->size() != wavelengths.size()) {
+    reader.error(
+        *value.node,
+        fmt::format("{} has {} numbers, 'wavelengths' {}", value.label, numbers->size(), wavelengths.size()),
+        "there is one for each wavelength");
+    return {};
+  }
+  return Samples{wavelengths, std::move(*numbers)};
+}
+
+/// The one of `list` that `value` names; null, and why, where there is none.
+template <class Named>
+const Named* named(Reader& reader, const Value& value, const char* kind, const std::vector<Named>& list) {
+  std::string name;
+  if (!reader.text(value, fmt::format("a {}'s name or a mapping", kind), name)) return nullptr;
+  std::vector<std::string> known;
+  for (const Named& one : list) {
+    if (name == one.name) return &one;
+    known.emplace_back(one.name);
+  }
+  reader.error(*value.node, fmt::format("there is no {} '{}'", kind, name), suggestion(name, known));
+  return nullptr;
+}
+
+std::optional<Metal> read_metal(Reader& reader, const Value& value) {
+  if (value.node->kind != Node::Kind::mapping) {
+    const NamedMetal* found = named(reader, value, "metal", metals());
+    if (found == nullptr) return {};
+    return Metal{found->name, found->constants};
+  }
+  const auto& fields = format().metal.fields;
+  const auto values = reader.mapping(value, fields, "a metal");
+  if (!values) return {};
+  const Value *at = values->find("wavelengths"), *n = values->find("n"), *k = values->find("k");
+  if (at == nullptr || n == nullptr || k == nullptr) return {};  // which has been said
+  const auto wavelengths = reader.wavelengths(*at);
+  if (!wavelengths) return {};
+  const auto real = read_column(reader, *n, limits(*find(fields, "n")), *wavelengths),
+             imaginary = read_column(reader, *k, limits(*find(fields, "k")), *wavelengths);
+  if (!real || !imaginary) return {};
+  return Metal{"", {*real, *imaginary}};
+}
+
+std::optional<Glass> read_glass(Reader& reader, const Value& value) {
+  if (value.node->kind != Node::Kind::mapping) {
+    const NamedGlass* found = named(reader, value, "glass", glasses());
+    if (found == nullptr) return {};
+    return Glass{found->name, found->index};
+  }
+  const auto& fields = format().glass.fields;
+  const auto values = reader.mapping(value, fields, "a glass");
+  if (!values) return {};
+  const Value *at = values->find("wavelengths"), *n = values->find("n"), *ior = values->find("ior"),
+              *abbe = values->find("abbe");
+  if (at != nullptr || n != nullptr) {
+    if (at == nullptr || n == nullptr) {
+      const Value& one = at != nullptr ? *at : *n;
+      reader.error(*one.key, fmt::format("{} needs '{}'", one.label, at != nullptr ? "n" : "wavelengths"),
+                   "a glass is a name, {ior, abbe}, or {wavelengths: [...], n: [...]}");
+      return {};
+    }
+    for (const Value* other : {ior, abbe})
+      if (other != nullptr)
+        reader.error(*other->key, other->label + " stands beside 'n', which takes its place");
+    const auto wavelengths = reader.wavelengths(*at);
+    if (!wavelengths) return {};
+    const auto index = read_column(reader, *n, limits(*find(fields, "n")), *wavelengths);
+    if (!index || ior != nullptr || abbe != nullptr) return {};
+    return Glass{"", *index};
+  }
+  double index = 1.5, number = 0;
+  if (ior != nullptr && !reader.number(*ior, limits(*find(fields, "ior")), index)) return {};
+  if (abbe == nullptr) return Glass{"", Cauchy{index, 0}};
+  if (!reader.number(*abbe, limits(*find(fields, "abbe")), number)) return {};
+  return Glass{"", glass_of(index, number)};
+}
+
+/// The numbers that a metal or a glass brings, where the material gives none: those of a metallic-roughness
+/// material that reflects as much as the substance (illumination/metallic_roughness.h), as factors on it.
+void complete(const Values& values, Material& out) {
+  const bool metal = std::holds_alternative<Metal>(*out.substance);
+  MetallicRoughness rough;
+  rough.roughness = out.roughness;
+  const auto lecture = lecture_material(numbers_of(rough));
+  const auto set = [&](const char* name, auto Material::*member, const auto& value) {
+    if (values.find(name) == nullptr) out.*member = value;
+  };
+  set("ambient", &Material::ambient, metal ? lecture.ka : Rgb{});
+  set("diffuse", &Material::diffuse, metal ? lecture.kd : Rgb{});
+  set("specular", &Material::specular, lecture.ks);
+  // Phong's lobe is as wide as Blinn's with four times the power.
+  set("shininess", &Material::shininess, lecture.n / 4);
+  set("reflect", &Material::reflect, lecture.reflect);
+  set("transmit", &Material::transmit, metal ? Rgb{} : grey(1.0));
+  if (!out.model) out.model = ModelId::wavelength_specular;
+}
+
+void read_substance(Reader& reader, const Values& values, Material& out) {
+  const Value *metal = values.find("metal"), *glass = values.find("glass");
+  if (metal == nullptr && glass == nullptr) return;
+  const Value& one = metal != nullptr ? *metal : *glass;
+  if (metal != nullptr && glass != nullptr) {
+    reader.error(*glass->key, "'glass' stands beside 'metal'", "a surface is one of them");
+    return;
+  }
+  for (const char* other : {"metallic_roughness", "ior"})
+    if (const Value* beside = values.find(other))
+      reader.error(*beside->key, fmt::format("{} stands beside {}", beside->label, one.label),
+                   "which says what reflects and refracts");
+  if (const Value* roughness = values.find("roughness"))
+    if (out.model != ModelId::povray) reader.number(*roughness, zero_to_one, out.roughness);
+  if (metal != nullptr) {
+    if (auto found = read_metal(reader, *metal)) out.substance = std::move(*found);
+  } else if (auto found = read_glass(reader, *glass)) {
+    out.substance = std::move(*found);
+  }
+  if (out.substance) complete(values, out);
 }
 
 bool is_color(MapSlot slot) {
@@ -204,6 +330,8 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
         if (word == model_infos[i].name) out.model = ModelId(i);
   }
   reader.table(*values, fields, out);
+  out.spectra = reader.spectra<Material>(*values);
+  read_substance(reader, *values, out);
   if (const Value* alpha = values->find("alpha")) reader.choice(*alpha, out.alpha);
   if (const Value* rough = values->find("metallic_roughness")) read_rough(reader, *values, *rough, out);
   if (const Value* maps = values->find("maps")) read_maps(reader, *maps, files, textures, out);
@@ -212,6 +340,7 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
   for (std::size_t i = 0; i < format().models.size(); ++i) {
     for (const Field& field : format().models[i].fields) {
       const Value* own = values->find(field.name);
+      if (field.name == "roughness" && out.substance && i != chosen) continue;  // read above
       if (own == nullptr || (out.own.count(field.name) != 0 && i != chosen)) continue;
       const Field* decisive = find(format().models[chosen].fields, field.name);
       const Field& rule = decisive != nullptr ? *decisive : field;

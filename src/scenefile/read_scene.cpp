@@ -163,6 +163,7 @@ void read_illumination(Reader& reader, const Value& value, Illumination& illumin
   const auto values = reader.mapping(value, fields, "the illumination");
   if (!values) return;
   reader.table(*values, fields, illumination);
+  illumination.spectra = reader.spectra<Illumination>(*values);
   if (const Value* occlusion = values->find("ambient_occlusion")) {
     illumination.occlusion.emplace();
     const auto& own = format().ambient_occlusion.fields;
@@ -212,6 +213,22 @@ std::optional<Values> read_settings(Reader& reader, const std::string& name, con
   return values;
 }
 
+void read_spectral(Reader& reader, const Value& value, Scene& scene) {
+  const auto values = read_settings(reader, "spectral", value, scene.whitted);
+  if (!values) return;
+  const Value* wavelengths = values->find("wavelengths");
+  if (wavelengths == nullptr) return;
+  int count = 0;
+  if (wavelengths->node->kind == Node::Kind::list) {
+    if (auto list = reader.wavelengths(*wavelengths)) scene.spectral.wavelengths = std::move(*list);
+    if (scene.spectral.wavelengths.size() > std::size_t(most_wavelengths))
+      reader.error(*wavelengths->node, fmt::format("'wavelengths' are {}", scene.spectral.wavelengths.size()),
+                   fmt::format("there may be {}", most_wavelengths));
+  } else if (reader.integer(*wavelengths, {1, most_wavelengths}, count)) {
+    scene.spectral.wavelengths = even_wavelengths(count);
+  }
+}
+
 void read_view(Reader& reader, const Value& value, Scene& scene) {
   const auto values = read_settings(reader, "view", value, scene.view);
   if (!values) return;
@@ -258,6 +275,7 @@ void read_integrator(Reader& reader, const Value& value, Scene& scene) {
   if (chosen == nullptr) return;
   scene.integrator = *meaning_of<Integrator>(chosen->key->text);
   if (scene.integrator == Integrator::view) read_view(reader, *chosen, scene);
+  if (scene.integrator == Integrator::spectral) read_spectral(reader, *chosen, scene);
   if (scene.integrator == Integrator::path) read_settings(reader, "path", *chosen, scene.path);
   if (scene.integrator == Integrator::ambient_occlusion)
     read_settings(reader, "ambient_occlusion", *chosen, scene.ambient_occlusion);
@@ -313,8 +331,7 @@ std::string unique_name(Reader& reader, const Values& values, std::string defaul
   return name;
 }
 
-template <class L>
-void read_light_of(Reader& reader, const Value& value, const Section& section, AnyLight& out) {
+template <class L> void read_light_of(Reader& reader, const Value& value, const Section& section, Light& to) {
   const auto values = reader.mapping(value, section.fields, "a " + section.name + " light");
   if (!values) return;
   L light;
@@ -335,7 +352,8 @@ void read_light_of(Reader& reader, const Value& value, const Section& section, A
       reader.error(v->place(), "'v' lies along 'u': the light has no area",
                    "they are the light's sides; of a rectangle they are at a right angle");
   }
-  out = light;
+  to.light = light;
+  to.spectra = reader.spectra<L>(*values);
 }
 
 void read_light(Reader& reader, const Value& value, std::size_t number, Scene& scene,
@@ -359,7 +377,7 @@ void read_light(Reader& reader, const Value& value, std::size_t number, Scene& s
     first = &one;
 #define LAMBENT_LIGHT(word, Struct)       \
   if (one.key->text == Struct::info.name) \
-    read_light_of<Struct>(reader, one, *find(f.lights, Struct::info.name), light.light);
+    read_light_of<Struct>(reader, one, *find(f.lights, Struct::info.name), light);
 #include "lights/lights.def"
 #undef LAMBENT_LIGHT
   }

@@ -313,6 +313,11 @@ bool Reader::direction(const Value& value, const Range& range, Vec3<double>& out
 bool Reader::color(const Value& value, const Range& range, Rgb& out) {
   constexpr const char* forms = "a colour is [r, g, b], one number for grey, or \"#rrggbb\"";
   const Node& node = *value.node;
+  if (node.kind == Node::Kind::mapping && node.tag.empty()) {
+    const std::optional<Spectrum> given = spectrum(value);
+    if (given) out = rgb_of(*given);
+    return given.has_value();
+  }
   if (node.kind == Node::Kind::list && node.tag.empty()) {
     std::array<double, 3> c{};
     if (!numbers(value, range, c)) return false;
@@ -345,6 +350,87 @@ bool Reader::color(const Value& value, const Range& range, Rgb& out) {
   if (!number(value, range, level)) return false;
   out = {{level, level, level}};
   return true;
+}
+
+std::optional<std::vector<double>> Reader::numbers(const Value& value, const Range& range) {
+  const Node& node = *value.node;
+  if (node.kind != Node::Kind::list || !node.tag.empty()) {
+    must_be(value, "a list of numbers");
+    return {};
+  }
+  std::vector<double> result(node.children.size());
+  if (result.empty()) {
+    error(node, value.label + " is an empty list", "it has one number at least");
+    return {};
+  }
+  if (!numbers(value, range, result.data(), result.size())) return {};
+  return result;
+}
+
+std::optional<std::vector<double>> Reader::wavelengths(const Value& value) {
+  auto result = numbers(value, {shortest_wavelength, longest_wavelength});
+  if (!result) return {};
+  for (std::size_t i = 1; i < result->size(); ++i)
+    if (!((*result)[i] > (*result)[i - 1])) {
+      error(*value.node->children[i],
+            fmt::format("number {} of {} is not more than the one before it", i + 1, value.label),
+            "wavelengths stand in growing order, each once");
+      return {};
+    }
+  return result;
+}
+
+std::optional<Spectrum> Reader::spectrum(const Value& value) {
+  const auto& fields = format().spectrum.fields;
+  const auto values = mapping(value, fields, "a spectrum");
+  if (!values || values->unknown_keys) return {};
+  const Value *body = values->find("blackbody"), *table = values->find("values"),
+              *power = values->find("power"), *at = values->find("wavelengths"),
+              *factor = values->find("intensity");
+  const Value* given[] = {body, table, power};
+  const auto count = std::count_if(std::begin(given), std::end(given), [](auto* one) { return one; });
+  if (count != 1) {
+    error(
+        value.place(),
+        value.label + (count == 0 ? " is a mapping that gives no spectrum" : " gives more than one spectrum"),
+        "a spectrum is {blackbody: KELVIN}, {wavelengths: [...], values: [...]} or {wavelengths: [...], "
+        "power: [...]}");
+    return {};
+  }
+  const auto range = [&](const char* name) { return limits(*lambent::find(fields, name)); };
+  double intensity = 1;
+  if (factor != nullptr && table != nullptr) {
+    error(*factor->key, "'intensity' stands beside 'values', which say how much there is");
+    return {};
+  }
+  if (factor != nullptr && !number(*factor, range("intensity"), intensity)) return {};
+  if (body != nullptr) {
+    if (at != nullptr) {
+      error(*at->key, "'wavelengths' stands beside 'blackbody', whose light is known at all of them");
+      return {};
+    }
+    Blackbody black;
+    if (!number(*body, range("blackbody"), black.kelvin)) return {};
+    return RelativeLight(black, intensity);
+  }
+  const Value& list = table != nullptr ? *table : *power;
+  if (at == nullptr) {
+    error(*list.key, list.label + " needs 'wavelengths'", "as many, in nm: at which these numbers hold");
+    return {};
+  }
+  auto where = wavelengths(*at);
+  auto numbers_there = numbers(list, range("values"));
+  if (!where || !numbers_there) return {};
+  if (where->size() != numbers_there->size()) {
+    error(
+        *list.node,
+        fmt::format("{} has {} numbers, 'wavelengths' {}", list.label, numbers_there->size(), where->size()),
+        "there is one for each wavelength");
+    return {};
+  }
+  Samples samples{std::move(*where), std::move(*numbers_there)};
+  if (table != nullptr) return samples;
+  return RelativeLight(std::move(samples), intensity);
 }
 
 bool Reader::text(const Value& value, const std::string& what, std::string& out) {

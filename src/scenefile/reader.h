@@ -3,6 +3,7 @@
 // remembered, so that one run finds all there is.
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "scenefile/document.h"
 #include "scenefile/format.h"
 #include "scenefile/names.h"
+#include "spectra/spectrum.h"
 
 namespace lambent {
 
@@ -61,6 +63,12 @@ class Reader {
   bool integer(const Value& value, const Range& range, int& out);
   bool boolean(const Value& value, bool& out);
   bool color(const Value& value, const Range& range, Rgb& out);
+  /// Any number of numbers, one at least.
+  std::optional<std::vector<double>> numbers(const Value& value, const Range& range);
+  /// The same at growing wavelengths.
+  std::optional<std::vector<double>> wavelengths(const Value& value);
+  /// What a mapping says of a colour at every wavelength.
+  std::optional<Spectrum> spectrum(const Value& value);
   bool vector(const Value& value, const Range& range, Vec3<double>& out);
   bool direction(const Value& value, const Range& range, Vec3<double>& out);
   bool text(const Value& value, const std::string& what, std::string& out);
@@ -91,6 +99,18 @@ class Reader {
                  parameter.member);
     }
     return count() == before;
+  }
+  /// The colours of S's table that `values` gives as spectra.
+  template <class S> std::map<std::string, Spectrum> spectra(const Values& values) {
+    std::map<std::string, Spectrum> result;
+    for (const Parameter<S>& parameter : parameters_of<S>) {
+      const Value* value = values.find(parameter.name);
+      if (value == nullptr || value->node->kind != Node::Kind::mapping ||
+          !std::holds_alternative<Rgb S::*>(parameter.member))
+        continue;
+      if (auto found = spectrum(*value)) result.emplace(parameter.name, std::move(*found));
+    }
+    return result;
   }
 
  private:

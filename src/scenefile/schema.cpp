@@ -6,6 +6,7 @@
 #include "lambent/lambent.h"
 #include "scenefile/format.h"
 #include "scenefile/names.h"
+#include "spectra/optical.h"
 
 namespace lambent {
 namespace {
@@ -64,7 +65,8 @@ Json value_of_type(const Field& field) {
       return {{"oneOf",
                {array_of(number_in(range), 3, 3),
                 number_in(range),
-                {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}}}};
+                {{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}},
+                reference("spectrum")}}};
     case FieldType::vector:
     case FieldType::point:
     case FieldType::direction:
@@ -106,6 +108,21 @@ Json value_of_type(const Field& field) {
                 reference("background")}}};
     case FieldType::map:
       return {{"oneOf", {{{"type", "string"}, {"minLength", 1}}, reference("map")}}};
+    case FieldType::substance: {
+      const bool metal = field.name == "metal";
+      std::vector<std::string> names;
+      if (metal)
+        for (const NamedMetal& one : metals()) names.emplace_back(one.name);
+      else
+        for (const NamedGlass& one : glasses()) names.emplace_back(one.name);
+      return {{"oneOf", {words(names), reference(metal ? "metal" : "glass")}}};
+    }
+    case FieldType::numbers:
+      return array_of(number_in(range), 1);
+    case FieldType::wavelengths:
+      return {{"oneOf",
+               {number_in({1, most_wavelengths}, "integer"),
+                array_of(number_in(range), 1, std::size_t(most_wavelengths))}}};
     case FieldType::transform:
       return {{"oneOf", {reference("step"), array_of(reference("step"), 0)}}};
     case FieldType::motion:
@@ -183,6 +200,15 @@ std::string scene_schema() {
   definitions["background"] = object_of(f.background);
   definitions["fog"] = object_of(f.fog);
   definitions["metallic_roughness"] = object_of(f.metallic_roughness);
+  definitions["metal"] = object_of(f.metal);
+  definitions["glass"] = object_of(f.glass);
+  definitions["glass"]["minProperties"] = 1;
+  definitions["glass"]["oneOf"] = {{{"required", {"wavelengths", "n"}}},
+                                   {{"not", {{"anyOf", one_of_keys({"wavelengths", "n"})}}}}};
+  definitions["spectrum"] = object_of(f.spectrum);
+  definitions["spectrum"]["oneOf"] = {{{"required", {"blackbody"}}},
+                                      {{"required", {"wavelengths", "values"}}},
+                                      {{"required", {"wavelengths", "power"}}}};
   definitions["maps"] = object_of(f.maps);
   definitions["map"] = object_of(f.map);
   for (const char* pair : {"scale", "offset"})

@@ -75,7 +75,10 @@ std::string camera_text(const Camera& camera) {
 
 std::string integrator_summary(const Scene& scene) {
   const WhittedSettings& whitted = scene.whitted;
-  const std::string tracing = fmt::format("whitted, max_depth {}, shadows {}", whitted.max_depth,
+  const std::string kind = scene.integrator == Integrator::spectral
+                               ? fmt::format("spectral, {} wavelengths", scene.spectral.wavelengths.size())
+                               : "whitted";
+  const std::string tracing = fmt::format("{}, max_depth {}, shadows {}", kind, whitted.max_depth,
                                           !whitted.shadows          ? "off"
                                           : whitted.colored_shadows ? "coloured"
                                                                     : "opaque");
@@ -86,6 +89,15 @@ std::string integrator_summary(const Scene& scene) {
   const std::string view = "view of " + text_of(scene.view.show);
   if (scene.view.show == View::cosine) return fmt::format("{}, light '{}'", view, scene.view.light);
   return scene.view.show == View::rays ? view + ": " + tracing : view;
+}
+
+/// "metal gold, roughness 0.2, ", or nothing.
+std::string substance_text(const Material& material) {
+  if (!material.substance) return {};
+  const auto* metal = std::get_if<Metal>(&*material.substance);
+  const std::string name = metal ? metal->name : std::get<Glass>(*material.substance).name;
+  return fmt::format("{} {}, roughness {}, ", metal ? "metal" : "glass", name.empty() ? "of its own" : name,
+                     plain(material.roughness));
 }
 
 /// Nothing is decoded here, so nothing has to be held back.
@@ -165,7 +177,7 @@ SceneSummary summarize(const ScenePtr& pointer) {
       summary.lights.push_back({light.name, one.info.name, light.place, 0, detail(one)});
     });
   for (const Material& material : scene.materials) {
-    std::string text = detail(material);
+    std::string text = substance_text(material) + detail(material);
     for (const auto& [name, value] : material.own)
       text += (text.empty() ? "" : ", ") + name + " " + plain(value);
     summary.materials.push_back(

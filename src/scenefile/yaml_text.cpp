@@ -1,5 +1,7 @@
 #include "scenefile/yaml_text.h"
 
+#include <fmt/ranges.h>
+
 namespace lambent {
 
 std::string yaml_quoted(std::string_view text) {
@@ -18,6 +20,9 @@ std::string integrator_text(const Scene& scene) {
   switch (scene.integrator) {
     case Integrator::whitted:
       break;
+    case Integrator::spectral:
+      return fmt::format("{{spectral: {{wavelengths: [{}], {}}}}}",
+                         fmt::join(scene.spectral.wavelengths, ", "), whitted);
     case Integrator::path:
       return fmt::format("{{path: {{{}}}}}", settings_text(scene.path, Wanted::all));
     case Integrator::ambient_occlusion:

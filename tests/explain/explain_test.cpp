@@ -48,7 +48,7 @@ TEST(Explain, TheTermsSumToTheRenderedPixelBitForBit) {
     for (int i = 0; i < 100; ++i, ++pixels) {
       const int x = std::uniform_int_distribution<int>(0, 23)(random),
                 y = std::uniform_int_distribution<int>(0, 17)(random);
-      const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
+      const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.portions());
       ASSERT_NO_FATAL_FAILURE(expect_same_bits(
           image.pixel(x, y), {d.pixel, d.pixel + 3},
           "seed " + std::to_string(seed) + ", pixel " + std::to_string(x) + "," + std::to_string(y)));
@@ -69,7 +69,7 @@ TEST(Explain, AFormulaHasTheBitsOfTheRenderersTerm) {
     Exposure exposure(*scene);
     for (int y = 0; y < 12; ++y)
       for (int x = 0; x < 16; ++x) {
-        const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.passes());
+        const Derivation d = derive(scene, exposure, choose_kernel(""), x, y, exposure.portions());
         for (const DerivedRay& ray : d.rays) {
           if (!ray.hits) continue;
           EXPECT_EQ(ray.ambient, ambient_formula(d, ray).value);
@@ -251,6 +251,38 @@ TEST(Explain, TheJsonIsAsItsSchemaSays) {
     json["samples"][0]["ray"]["something"] = 1;
     EXPECT_FALSE(schema.accepts(json));
   }
+}
+
+TEST(Explain, TheJsonOfWavelengthsGivesThePixel) {
+  const test::JsonSchema schema(
+      Json::parse(test::read_text(std::string(LAMBENT_SOURCE_DIR) + "/docs/explain.schema.json")));
+  const ScenePtr scene = parse_scene(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0]}
+image: {size: [1, 1], samples: 2}
+integrator: {spectral: {wavelengths: 4}}
+lights: [{point: {position: [2, 2, 4], intensity: 4}}]
+objects: [{sphere: {center: [0, 0, 0], radius: 1}, material: {metal: gold, roughness: 0.4}}]
+)");
+  const Json json = Json::parse(explanation(explain(scene, 0, 0), {ExplainFormat::json, {}, false}));
+  EXPECT_TRUE(schema.accepts(json)) << json.dump(1);
+  ASSERT_EQ(json["wavelengths"].size(), 4u);
+  double sum[3] = {};
+  for (std::size_t s = 0; s < 2; ++s) {
+    double color[3] = {};
+    for (const Json& pass : json["passes"]) {
+      double add[3] = {};
+      for (std::size_t i = 0; i < pass["weights"].size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+          add[c] += pass["samples"][s]["color"][i].get<double>() * pass["weights"][i][c].get<double>();
+      for (std::size_t c = 0; c < 3; ++c) color[c] += add[c];
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(color[c], json["samples"][s]["color"][c].get<double>());
+      sum[c] += color[c];
+    }
+  }
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(float(sum[c] / 2), json["linear"][c].get<float>());
 }
 
 TEST(Explain, TextStaysWithin80ColumnsAndSaysThatItAddsUp) {

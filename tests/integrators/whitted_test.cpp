@@ -36,6 +36,13 @@ struct Expected {
                   double n);
 };
 double plus(double a) { return a > 0 ? a : 0; }
+/// Fresnel's equations for unpolarised light that meets something clear of index n: (rs^2 + rp^2) / 2.
+double fresnel(double cosine, double n) {
+  const double beyond = std::sqrt(1 - (1 - cosine * cosine) / (n * n)),
+               s = (cosine - n * beyond) / (cosine + n * beyond),
+               p = (n * cosine - beyond) / (n * cosine + beyond);
+  return (s * s + p * p) / 2;
+}
 
 const Expected every_model[] = {
     // I = Ka Ia + Il Kd (N.L)+
@@ -64,6 +71,15 @@ const Expected every_model[] = {
        const V H = 0.5 * (L + E);
        return ka / R +
               8 / r * (kd * plus(dot(N, L)) + (dot(N, L) > 0 ? ks * std::pow(plus(dot(N, H)), n) : 0));
+     }},
+    // phong's, the highlight times w(N.L); the material has no measured constants, and its ior is 1.5
+    {"wavelength_specular",
+     [](const V& N, const V& L, const V& E, double r, double R, double ka, double kd, double ks, double n) {
+       const V mirrored = 2 * dot(N, L) * N - L;
+       return ka / R +
+              8 / r *
+                  (kd * plus(dot(N, L)) +
+                   (dot(N, L) > 0 ? ks * fresnel(dot(N, L), 1.5) * std::pow(plus(dot(mirrored, E)), n) : 0));
      }},
     // I = Ka Ia + Il [ Kd (N.L)+ + Ks (N.H)+^n ], illum 2
     {"mtl",
