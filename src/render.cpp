@@ -60,6 +60,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   Stats& stats = result.stats;
   Exposure exposure(*scene);
   const Frame& frame = exposure.at(0).frame;  // of the first slice; none needs it beyond that
+  const int passes = std::max(1, frame.pass_count);
   describe(*scene, exposure.at(0), stats);
   stats.seconds.build = clock.lap();
   std::optional<LayerBook> book;
@@ -91,7 +92,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const RayCounts& rays = run.counts;
   stats.rays = {rays.eye, rays.eye_hits, rays.reflection, rays.refraction, rays.shadow, rays.ambient};
   stats.seconds.develop = clock.lap();
-  stats.samples_per_pixel = double(rays.eye) / pixels / std::max(1, prepared->frame.pass_count);
+  stats.samples_per_pixel = double(rays.eye) / pixels / passes;
   stats.noise = run.noise;
   stats.peak_memory_bytes = peak_memory_bytes();
   stats.threads = threads;

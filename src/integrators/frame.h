@@ -35,7 +35,8 @@ struct MaterialRecord {
   bool white;                ///< Vertices do not colour it.
   /// With one, `reflect` is a factor on what is reflected, `transmit` on the rest.
   Boundary boundary;
-  Rgb eta, k;  ///< The complex index of refraction, for each channel.
+  Rgb eta, k;        ///< The complex index of refraction, for each channel.
+  double roughness;  ///< Of metal and glass: alpha is its square.
 
   // For paint.h:
   const MaterialMap* maps;

@@ -205,6 +205,11 @@ template <bool Seen> struct Work : Wavefront {
                    given(hits, [](const M& m) { return m.rough.clearcoat; }),
                    given(hits, [](const M& m) { return m.rough.clearcoat_roughness; })};
       }
+    } else {
+      s.roughness = given(hits, [](const MaterialRecord& m) { return m.roughness; });
+      s.ior = given(hits, [](const MaterialRecord& m) { return m.ior; });
+      s.eta = given_color(hits, [](const MaterialRecord& m) { return m.eta; });
+      s.k = given_color(hits, [](const MaterialRecord& m) { return m.k; });
     }
     return s;
   }
@@ -218,8 +223,9 @@ template <bool Seen> struct Work : Wavefront {
       case ScatterKind::metallic_roughness:
         return shade<ScatterKind::metallic_roughness>(at, hits);
       case ScatterKind::metal:
+        return shade<ScatterKind::metal>(at, hits);
       case ScatterKind::glass:
-        break;
+        return shade<ScatterKind::glass>(at, hits);
     }
     __builtin_unreachable();
   }

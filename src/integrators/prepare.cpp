@@ -61,6 +61,11 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
     record.reflects = true;
     record.ior = 1;  // thin, as KHR_materials_transmission has it
   }
+  if (material.substance) {
+    record.scatter = int(std::holds_alternative<Metal>(*material.substance) ? ScatterKind::metal
+                                                                            : ScatterKind::glass);
+    record.roughness = material.roughness;
+  }
   record.unlit =
       !record.is_rough && is_black(record.ambient) && is_black(record.diffuse) && is_black(record.specular);
   for (int i = 0; i < max_model_parameters && info(model).parameters[i].name; ++i)

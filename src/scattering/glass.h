@@ -17,7 +17,7 @@
 //
 // Refraction spreads or gathers radiance by eta^2, which `eta_scale` says.
 
-#include "scattering/fresnel.h"
+#include "illumination/fresnel.h"
 #include "scattering/ggx.h"
 #include "scattering/ggx_albedo.h"
 #include "scattering/surface.h"

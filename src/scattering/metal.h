@@ -8,7 +8,7 @@
 // <F> is Schlick's average (1 + 20 F(1)) / 21 with the exact reflection along the normal. Reciprocal, and
 // where F = 1 all light is reflected. With roughness 0 a perfect mirror.
 
-#include "scattering/fresnel.h"
+#include "illumination/fresnel.h"
 #include "scattering/ggx.h"
 #include "scattering/ggx_albedo.h"
 #include "scattering/surface.h"

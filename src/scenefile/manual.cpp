@@ -435,7 +435,7 @@ std::string scene_manual() {
                         index_at(glass.index, line_d), abbe_of(glass.index), glass.source);
   text += "\nA metal written out:\n\n" + table(f.metal.fields) + "A glass written out:\n\n" +
           table(f.glass.fields);
-  text += "### `metallic_roughness`\n\n" + rough_text + table(f.metallic_roughness.fields);
+  text += "### `metallic_roughness`\n\n" + std::string(rough_text) + table(f.metallic_roughness.fields);
   text += "### `maps`\n\n" + std::string(maps_text) + table(f.maps.fields) + "A map written out:\n\n" +
           table(f.map.fields);
   text += "## Spectra\n\n" + std::string(spectra_text) + table(f.spectrum.fields);
