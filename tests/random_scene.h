@@ -41,6 +41,23 @@ inline std::string random_scene(unsigned seed, int width, int height, const std:
       text += fmt::format(
           "  - {{name: \"l {}\", point: {{position: {}, color: {}, intensity: {:.3f}, max_distance: {}}}}}\n",
           i, point(5), color(1), number(0, 6), chance(0.2) ? "4" : "0");
+    else if (chance(0.3))
+      text +=
+          chance(0.4)
+              ? fmt::format(
+                    "  - {{name: l{}, rectangle: {{center: {}, u: [{:.3f}, 0, 1], v: [0, {:.3f}, 1], color: "
+                    "{}, intensity: 4, samples: {}, two_sided: {}}}}}\n",
+                    i, point(4), number(0.1, 2), number(0.1, 2), color(1),
+                    std::uniform_int_distribution<int>(1, 5)(random), chance(0.5))
+          : chance(0.5)
+              ? fmt::format(
+                    "  - {{name: l{}, disc: {{center: {}, normal: {}, radius: {:.3f}, intensity: 5, samples: "
+                    "{}, visible: {}}}}}\n",
+                    i, point(4), point(1), number(0.1, 1), std::uniform_int_distribution<int>(1, 5)(random),
+                    chance(0.7))
+              : fmt::format(
+                    "  - {{name: l{}, sphere: {{center: {}, radius: {:.3f}, intensity: 5, samples: {}}}}}\n",
+                    i, point(4), number(0.1, 1), std::uniform_int_distribution<int>(1, 5)(random));
     else if (chance(0.5))
       text += fmt::format(
           "  - {{name: l{}, spot: {{position: {}, target: {}, angle: {:.1f}, exponent: 2, intensity: 5}}}}\n",

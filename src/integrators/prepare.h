@@ -59,8 +59,10 @@ class Exposure {
   std::unique_ptr<PreparedFrame> prepared_;
 };
 
-/// Point `number` of the pattern in which `count` points lie on a light: each has one of `count` rows and one
-/// of `count` columns of equal width for itself, and they lie alike about the centre.
+/// Point `number` of the pattern in which `count` points lie on a light. Each has one of `count` columns and
+/// one of `count` rows of equal width for itself, and they lie alike about the centre; k x k points also have
+/// a cell each of a grid of k x k (Kensler, Correlated multi-jittered sampling, Pixar technical memo 13-01,
+/// 2013, without the jitter). So edges of shadows at any angle have as many steps as there are points.
 Vec2<double> point_of_light(int number, int count);
 
 /// The trees that bring a picture of so many samples to its end soonest.

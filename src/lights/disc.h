@@ -64,7 +64,8 @@ inline constexpr Parameter<DiscLight> parameters_of<DiscLight>[] = {
      &DiscLight::samples,
      {1, 1024},
      "",
-     "How many points of it light a surface; 1 is the centre alone, and shadows are hard. `path` chooses "
+     "How many points of it light a surface, the same everywhere; 1 is the centre alone, and shadows are "
+     "hard. `path` chooses "
      "points of its own."},
     {"visible",
      &DiscLight::visible,

@@ -69,7 +69,8 @@ inline constexpr Parameter<RectangleLight> parameters_of<RectangleLight>[] = {
      &RectangleLight::samples,
      {1, 1024},
      "",
-     "How many points of it light a surface; 1 is the centre alone, and shadows are hard. `path` chooses "
+     "How many points of it light a surface, the same everywhere; 1 is the centre alone, and shadows are "
+     "hard. `path` chooses "
      "points of its own."},
     {"visible",
      &RectangleLight::visible,

@@ -96,7 +96,8 @@ inline constexpr Parameter<SphereLight> parameters_of<SphereLight>[] = {
      &SphereLight::samples,
      {1, 1024},
      "",
-     "How many points of it light a surface; 1 is the centre alone, and shadows are hard. `path` chooses "
+     "How many points of it light a surface, the same everywhere; 1 is the centre alone, and shadows are "
+     "hard. `path` chooses "
      "points of its own."},
     {"visible",
      &SphereLight::visible,

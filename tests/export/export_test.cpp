@@ -49,6 +49,29 @@ objects:
   }
 }
 
+TEST(Export, LightsWithExtentAreGridsOfPointsOrPoints) {
+  const std::string yaml = head + R"(
+illumination: {model: phong, attenuation: none, ambient_attenuation: none}
+lights:
+  - {name: panel, rectangle: {center: [0, 4, 0], u: [2, 0, 0], v: [0, 0, 1], samples: 9, two_sided: true}}
+  - {name: spotlight, disc: {center: [3, 4, 0], normal: [0, -1, 0], radius: 0.5, visible: false}}
+  - {name: bulb, sphere: {center: [-3, 4, 0], radius: 0.5, samples: 16}}
+)";
+  const Exported pov = exported(yaml, ExportFormat::povray), dat = exported(yaml, ExportFormat::tachyon);
+  EXPECT_EQ(pov.count("light_source {"), 3);
+  EXPECT_EQ(pov.count(" area_light <2, 0, 0>, <0, 0, 1>, 3, 3 "), 1);
+  EXPECT_EQ(pov.count(", 4, 4 circular orient"), 1);
+  EXPECT_EQ(pov.count("polygon {"), 1);
+  EXPECT_EQ(pov.count("sphere {"), 1);
+  EXPECT_EQ(pov.count("disc {"), 0) << "not visible";
+  EXPECT_TRUE(pov.says("light 'panel' is meant to shine by the cosine to its normal"));
+  EXPECT_TRUE(pov.says("light 'spotlight' is meant to shine by the cosine to its normal, and on one side alone"));
+  EXPECT_FALSE(pov.says("light 'bulb'"));
+  EXPECT_EQ(dat.count("\nLIGHT CENTER"), 3);
+  for (const char* name : {"panel", "spotlight", "bulb"})
+    EXPECT_TRUE(dat.says("has no lights with extent; light '" + std::string(name) + "' is a point, its centre"));
+}
+
 TEST(Export, InstancesAreWrittenOut) {
   const std::string mesh =
       "mesh: {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], triangles: [[0, 1, 2], [0, 2, 3]]}";

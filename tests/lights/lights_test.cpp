@@ -60,12 +60,15 @@ TEST(EveryLight, HandsOutItsColourTimesOneFactor) {
     const Vec3<double> P{u(random), u(random), u(random)};
     for (const AnyLight& light :
          {AnyLight(PointLight{position, color, 3, 4}), AnyLight(DirectionalLight{target, color, 3}),
-          AnyLight(SpotLight{position, target, color, 3, 120, 0.9, 2})})
-      with_light(light, [&](const auto& one) {
+          AnyLight(SpotLight{position, target, color, 3, 120, 0.9, 2}),
+          AnyLight(RectangleLight{position, {1, 0, 0}, {0, 0, 2}, color, 3}),
+          AnyLight(DiscLight{position, normalize(target), 1, color, 3}),
+          AnyLight(SphereLight{position, 0.8, color, 3})})
+      with_light(light, [&]<class Light>(const Light& one) {
         const Rgb I = sample(one, P, 0.5, 0.5).I, whole = brightest<double>(one);
         const double share = share_of(I, whole);
         EXPECT_GE(share, 0);
-        EXPECT_LE(share, 1);
+        EXPECT_LE(share, std::is_same_v<Light, SphereLight> ? 2 : 1);
         between += share > 0 && share < 1;
         for (int c = 0; c < color_channels; ++c) EXPECT_NEAR(I[c], share * whole[c], 1e-15);
       });
@@ -112,20 +115,35 @@ TEST(EveryLight, GivesTheSameBitsForANumberAndForALane) {
   using P = Pack<double, native_float_lanes>;
   const AnyLight lights[] = {PointLight{{1, 2, 3}, {{1, 0.5, 0.2}}, 2},
                              DirectionalLight{{1, -2, 0.5}, {{1, 1, 1}}, 1},
-                             SpotLight{{0, 3, 0}, {0.2, 0, 0.1}, {{1, 1, 1}}, 2, 70, 0.4, 3}};
+                             SpotLight{{0, 3, 0}, {0.2, 0, 0.1}, {{1, 1, 1}}, 2, 70, 0.4, 3},
+                             RectangleLight{{0, 1, 0}, {1, 0, 0.5}, {0, 1, 1}, {{1, 0.3, 1}}, 2},
+                             DiscLight{{0, 1, 0}, {0.2, -1, 0.3}, 1.5},
+                             SphereLight{{0.5, 1, 0}, 2, {{1, 1, 0.2}}, 3}};
   static_assert(std::size(lights) == std::variant_size_v<AnyLight> - 1, "a light is missing in this test");
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> u(-3, 3);
+  std::uniform_real_distribution<double> u(-3, 3), unit(0, 1);
   for (const AnyLight& any : lights)
     for (int i = 0; i < 1000; ++i) {
       const auto numbers = [&] { return gather<P>([&](int) { return u(random); }); };
       const Vec3<P> p{numbers(), numbers(), numbers()};
-      with_light(any, [&](const auto& light) {
-        const auto together = sample(light, p, P(0.5), P(0.5));
+      const P at_u = gather<P>([&](int) { return unit(random); }),
+              at_v = gather<P>([&](int) { return unit(random); });
+      with_light(any, [&]<class Light>(const Light& light) {
+        const auto together = sample(light, p, at_u, at_v);
         for (int k = 0; k < lanes_of<P>; ++k) {
-          const auto alone = sample(light, Vec3<double>{lane(p.x, k), lane(p.y, k), lane(p.z, k)}, 0.5, 0.5);
+          const Vec3<double> one{lane(p.x, k), lane(p.y, k), lane(p.z, k)};
+          const auto alone = sample(light, one, lane(at_u, k), lane(at_v, k));
           EXPECT_EQ(to_bits(lane(together.L.x, k)), to_bits(alone.L.x));
+          EXPECT_EQ(to_bits(lane(together.L.y, k)), to_bits(alone.L.y));
+          EXPECT_EQ(to_bits(lane(together.L.z, k)), to_bits(alone.L.z));
           EXPECT_EQ(to_bits(lane(together.r, k)), to_bits(alone.r));
+          EXPECT_EQ(to_bits(lane(together.density, k)), to_bits(alone.density));
+          EXPECT_EQ(to_bits(lane(together.clear, k)), to_bits(alone.clear));
+          if constexpr (HasExtent<Light>) {
+            const Vec3<P> Q = p + together.r * together.L;
+            EXPECT_EQ(to_bits(lane(density(light, p, Q), k)),
+                      to_bits(density(light, one, one + alone.r * alone.L)));
+          }
           for (int c = 0; c < color_channels; ++c)
             EXPECT_EQ(to_bits(lane(together.I[c], k)), to_bits(alone.I[c]));
         }

@@ -252,6 +252,18 @@ TEST(ReaderMessages, Structure) {
       "the name 'a' is taken | the first is in line 3; choose another");
   EXPECT_EQ(only(head + "lights: [{spot: {position: [0, 1, 0], target: [0, 1, 0]}}]\n"),
             "'position' and 'target' are the same point | the light shines from one to the other");
+  EXPECT_EQ(
+      only(head + "lights: [{rectangle: {center: [0, 1, 0], u: [1, 2, 0], v: [-2, -4, 0]}}]\n"),
+      "'v' lies along 'u': the light has no area | they are the light's sides; of a rectangle they are at a "
+      "right angle");
+  EXPECT_EQ(only(head + "lights: [{disc: {center: [0, 1, 0], normal: [0, 1, 0], radius: 0}}]\n"),
+            "'radius' is 0 | it is at least 1e-10 scene units");
+  EXPECT_EQ(only(head + "lights: [{sphere: {center: [0, 1, 0], radius: 1, samples: 0}}]\n"),
+            "'samples' is 0 | it lies between 1 and 1024");
+  EXPECT_EQ(only(head + "lights: [{name: far, sphere: {center: [0, 1e10, 0], radius: 1}}]\n"),
+            "'far' reaches beyond 1e10 scene units from the origin | choose a larger unit of length: scale "
+            "the scene "
+            "down");
   EXPECT_EQ(only(head + "lights: [{directional: {direction: [0, 0, 0]}}]\n"),
             "'direction' is [0, 0, 0], which is no direction | a direction may have any length but zero");
   EXPECT_EQ(only(head + "materials: [{name: a}, {name: a}]\n"),
