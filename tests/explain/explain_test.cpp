@@ -36,12 +36,21 @@ void expect_same_bits(const float* expected, const std::vector<float>& got, cons
       << got[0] << " " << got[1] << " " << got[2];
 }
 
+/// Every third scene has a lens, every third fog.
+LoadOptions settings_for(unsigned seed, std::vector<std::pair<std::string, std::string>> set = {}) {
+  if (seed % 3 == 1) set.insert(set.end(), {{"camera.aperture", "0.4"}, {"camera.focus_distance", "5"}});
+  if (seed % 3 == 2) set.emplace_back("fog", "{color: [0.3, 0.4, 0.5], density: 0.1, start: 4}");
+  LoadOptions options;
+  options.set = std::move(set);
+  return options;
+}
+
 // 100 scenes, 100 pixels each: every kind of light, shape, model, depth and number of samples.
 TEST(Explain, TheTermsSumToTheRenderedPixelBitForBit) {
   std::size_t pixels = 0, mirrored = 0, refracted = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {
     const std::string yaml = test::random_scene(seed, 24, 18, std::to_string(1 + seed % 5));
-    const ScenePtr scene = parse_scene(yaml);
+    const ScenePtr scene = parse_scene(yaml, "scene", settings_for(seed));
     const Image image = render(scene).image;
     Exposure exposure(*scene);
     std::mt19937 random(seed);
@@ -132,8 +141,8 @@ void collect(const Json& ray, std::map<unsigned, Json>& rays) {
 
 TEST(Explain, TheJsonHasAllThatThePixelIsMadeOf) {
   for (unsigned seed = 300; seed < 320; ++seed) {
-    const ScenePtr scene =
-        parse_scene(test::random_scene(seed, 16, 12, "3"), "scene", {{{"image.pattern", "stratified"}}});
+    const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "3"), "scene",
+                                       settings_for(seed, {{"image.pattern", "stratified"}}));
     const Image image = render(scene).image;
     for (const auto& [x, y] : {std::pair{8, 6}, {3, 4}, {12, 9}}) {
       const Json json = Json::parse(explanation(explain(scene, x, y), {ExplainFormat::json, {}, false}));
@@ -145,7 +154,7 @@ TEST(Explain, TheJsonHasAllThatThePixelIsMadeOf) {
         std::set<unsigned> through_fog;
         for (const Json& number : sample["order"]) {
           const Json& ray = rays.at(number.get<unsigned>());
-          const bool is_fog = ray.contains("fog") && through_fog.insert(number).second;
+          const bool is_fog = ray.contains("fog") && through_fog.insert(number.get<unsigned>()).second;
           const Triple weight = triple(ray.contains("fog") && !is_fog ? ray["fog"]["weight"] : ray["weight"]),
                        brings = is_fog ? triple(ray["fog"]["brings"]) : color_of(ray, json["background"]);
           for (std::size_t c = 0; c < 3; ++c) color[c] += weight[c] * brings[c];
@@ -245,7 +254,10 @@ TEST(Explain, TheJsonIsAsItsSchemaSays) {
   const test::JsonSchema schema(
       Json::parse(test::read_text(std::string(LAMBENT_SOURCE_DIR) + "/docs/explain.schema.json")));
   for (unsigned seed = 500; seed < 540; ++seed) {
-    const ScenePtr scene = parse_scene(test::random_scene(seed, 16, 12, "2"));
+    std::string yaml = test::random_scene(seed, 16, 12, "2");
+    if (seed % 2)
+      yaml += "  - {sphere: {center: [0, 0, 0], radius: 0.3}, motion: {translate: [0.2, 0, 0]}}\n";
+    const ScenePtr scene = parse_scene(yaml, "scene", settings_for(seed, {{"image.pattern", "stratified"}}));
     Json json = Json::parse(explanation(explain(scene, 8, 6), {ExplainFormat::json, {}, false}));
     EXPECT_TRUE(schema.accepts(json)) << json.dump(1);
     json["samples"][0]["ray"]["something"] = 1;

@@ -44,13 +44,13 @@ TEST(AmbientOcclusionIntegrator, UnderADisc) {
 }
 
 TEST(AmbientOcclusionIntegrator, BesideAWall) {
-  // An endless wall of height h, x away. Of an endless strip only the angles across it count: what lies
-  // between a and b from the normal has the share (sin b - sin a) / 2. The wall reaches from the horizon, sin
-  // b = 1, up to sin a = x / sqrt(x^2 + h^2).
+  // A wall of height h, as good as endless, x away. Of an endless strip only the angles across it count: what
+  // lies between a and b from the normal has the share (sin b - sin a) / 2. The wall reaches from the
+  // horizon, sin b = 1, up to sin a = x / sqrt(x^2 + h^2).
   for (const double x : {0.01, 0.5, 1.0, 3.0}) {
     const double h = 1;
     const std::string wall =
-        fmt::format("  - {{plane: {{point: [0, {}, 0], normal: [1, 0, 0], size: [2e4, {}]}}}}\n", h / 2, h);
+        fmt::format("  - {{plane: {{point: [0, {}, 0], normal: [1, 0, 0], size: [200, {}]}}}}\n", h / 2, h);
     EXPECT_NEAR((1 + x / std::sqrt(x * x + h * h)) / 2, openness(seen_from_beside(x, wall)), 0.005) << x;
   }
   // An endlessly high one, a corner of two planes: one half, wherever one stands.

@@ -10,6 +10,7 @@
 
 #include "lambent/explain.h"
 #include "lambent/lambent.h"
+#include "math/color.h"
 
 namespace lambent {
 namespace {
