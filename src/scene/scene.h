@@ -164,7 +164,7 @@ inline constexpr Parameter<Fog> parameters_of<Fog>[] = {
 struct Illumination {
   ModelId model = ModelId::phong;
   Rgb ambient{1, 1, 1};                                   ///< Ia.
-  std::map<std::string, Spectrum> spectra;                ///< Of colours that are given as spectra.
+  std::map<std::string, Spectrum> spectra = {};                ///< Of colours that are given as spectra.
   std::optional<Attenuation> attenuation;                 ///< Unset: the model's own.
   std::optional<AmbientAttenuation> ambient_attenuation;  ///< Likewise.
   double minimum_distance = 1e-3;
@@ -347,7 +347,7 @@ struct Material {
   std::vector<MaterialMap> maps;            ///< Any number; of those of one slot, all multiply.
   std::optional<ModelId> model;             ///< Unset: the scene's.
   std::map<std::string, double> own;        ///< The models' own parameters that the file gives, by name.
-  std::map<std::string, Spectrum> spectra;  ///< Of colours that are given as spectra, by parameter.
+  std::map<std::string, Spectrum> spectra = {};  ///< Of colours that are given as spectra, by parameter.
 };
 /// Whether light can go through it somewhere: by `transmit`, by what is not opaque of it, or through gaps.
 bool may_transmit(const Material& material);
@@ -486,7 +486,7 @@ struct Object {
   Transform world_from_object;           ///< When the shutter opens.
   /// What happens to it until the shutter closes: each step at its own constant speed, all at once, applied
   /// in this order. Empty: it stands still.
-  std::vector<MotionStep> motion;
+  std::vector<MotionStep> motion = {};
 };
 /// Where it is at a time of the shutter's, 0 when that opens, 1 when it closes.
 Transform placed_at(const Object& object, double time);
@@ -496,7 +496,7 @@ struct Light {
   std::string name;
   Place place;
   AnyLight light;
-  std::map<std::string, Spectrum> spectra;  ///< Of colours that are given as spectra, by parameter.
+  std::map<std::string, Spectrum> spectra = {};  ///< Of colours that are given as spectra, by parameter.
 };
 
 /// What a turntable turns about.

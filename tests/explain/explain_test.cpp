@@ -82,10 +82,9 @@ TEST(Explain, AFormulaHasTheBitsOfTheRenderersTerm) {
         for (const DerivedRay& ray : d.rays) {
           if (!ray.hits) continue;
           EXPECT_EQ(ray.ambient, ambient_formula(d, ray).value);
-          for (std::size_t l = 0; l < ray.lights.size(); ++l) {
-            const DerivedLight& light = ray.lights[l];
+          for (const DerivedLight& light : ray.lights) {
             if (is_black(light.seen.arriving)) continue;
-            const LightFormulas formulas = light_formulas(d, ray, int(l));
+            const LightFormulas formulas = light_formulas(d, ray, light);
             ASSERT_EQ(light.seen.arriving, formulas.arriving.value);
             ASSERT_EQ(light.diffuse, formulas.diffuse.value);
             ASSERT_EQ(light.specular, formulas.specular.value);

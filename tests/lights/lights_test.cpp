@@ -68,7 +68,7 @@ TEST(EveryLight, HandsOutItsColourTimesOneFactor) {
         const Rgb I = sample(one, P, 0.5, 0.5).I, whole = brightest<double>(one);
         const double share = share_of(I, whole);
         EXPECT_GE(share, 0);
-        EXPECT_LE(share, std::is_same_v<Light, SphereLight> ? 2 : 1);
+        EXPECT_LE(share, (std::is_same_v<Light, SphereLight> ? 2 : 1));
         between += share > 0 && share < 1;
         for (int c = 0; c < color_channels; ++c) EXPECT_NEAR(I[c], share * whole[c], 1e-15);
       });
