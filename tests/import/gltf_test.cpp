@@ -7,53 +7,27 @@
 #include <map>
 
 #include "gltf_builder.h"
-#include "import/model.h"
-#include "support.h"
+#include "read_model.h"
 
 namespace lambent {
 namespace {
 
 using nlohmann::json;
-using test::GltfBuilder;
-using Strings = std::vector<std::string>;
-using Files = std::map<std::string, std::string>;
+using test::GltfBuilder, test::Files, test::mesh_of, test::printed, test::Strings, test::warnings_of;
 
 Model read(const std::string& text, const Files& beside = {}, const ImportOptions& options = {},
            const std::string& name = "model.gltf") {
-  const test::TemporaryDirectory folder;
-  for (const auto& [file, content] : beside) test::write_text(folder.file(file), content);
-  test::write_text(folder.file(name), text);
-  return import_model(folder.file(name), options);
-}
-
-std::string printed(const Diagnostic& diagnostic) {
-  Diagnostic d = diagnostic;
-  d.place.file = std::filesystem::path(d.place.file).filename().string();
-  return to_string(d);
+  return test::read_model(import_model, name, text, options, beside);
 }
 Strings errors_of(const std::string& text, const std::string& name = "model.gltf", const Files& beside = {},
                   const ImportOptions& options = {}) {
-  Strings result;
-  try {
-    read(text, beside, options, name);
-  } catch (const InputError& error) {
-    for (const Diagnostic& d : error.diagnostics()) result.push_back(printed(d));
-  }
-  return result;
-}
-Strings warnings_of(const Model& model) {
-  Strings result;
-  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
-  return result;
+  return test::errors_when([&] { read(text, beside, options, name); });
 }
 bool any_contains(const Strings& lines, const std::string& text) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const auto& line) { return line.find(text) != std::string::npos; });
 }
 
-const Mesh& mesh_of(const Model& model, std::size_t shape = 0) {
-  return std::get<Mesh>(model.shapes.at(shape).primitives);
-}
 const MaterialMap* map_of(const Material& material, MapSlot slot) {
   for (const MaterialMap& map : material.maps)
     if (map.slot == slot) return &map;
