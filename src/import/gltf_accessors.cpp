@@ -147,7 +147,7 @@ std::optional<std::string_view> Buffers::view(std::size_t number) {
 }
 
 void Buffers::read_again(std::uint64_t sparse_elements, const std::string& at) {
-  constexpr std::uint64_t most_times = 256, harmless = 1 << 20;
+  constexpr std::uint64_t most_times = 16, harmless = 1 << 20;
   sparse_elements_ += sparse_elements;
   if (sparse_elements_ > harmless && sparse_elements_ / most_times > total_)
     remarks_.fail(at, "what shares its elements makes them more than " + std::to_string(most_times) +

@@ -265,10 +265,19 @@ std::optional<std::uint32_t> ObjectReader::material(const Value& value) {
   std::string name;
   if (!reader_.text(value, "a material's name or a mapping", name)) return {};
   if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [other, index] : by_name_) known.push_back(other);
-  reader_.error(*value.node, "there is no material '" + name + "'",
-                known.empty() ? "the scene has no list of materials" : suggestion(name, known));
+  std::string hint = "the scene has no list of materials";
+  if (!by_name_.empty()) {
+    // What was meant is looked for among all names, but not for thousands of errors among thousands of names.
+    constexpr std::size_t most_compared = 100000;
+    hint.clear();
+    compared_ += by_name_.size();
+    if (compared_ <= most_compared) {
+      std::vector<std::string> known;
+      for (const auto& [other, index] : by_name_) known.push_back(other);
+      hint = suggestion(name, known);
+    }
+  }
+  reader_.error(*value.node, "there is no material '" + name + "'", hint);
   return {};
 }
 

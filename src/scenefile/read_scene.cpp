@@ -435,7 +435,7 @@ struct Nesting {
 };
 thread_local Nesting nesting;
 /// Two files on each of thirty levels would be read a billion times.
-constexpr std::uint64_t most_nested = 10000;
+constexpr std::uint64_t most_nested = 4096;
 
 }  // namespace
 
@@ -500,8 +500,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
       if (fault.place.file != source.name || fault.place.line < 1 ||
           fault.place.line > int(source.lines.size()))
         continue;
-      fault.excerpt = source.lines[std::size_t(fault.place.line) - 1];
-      fault.caret_column = fault.place.column;
+      show_line(fault, source.lines[std::size_t(fault.place.line) - 1], fault.place.column);
     }
     throw InputError(std::move(faults));
   }
