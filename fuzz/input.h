@@ -107,10 +107,10 @@ inline void check(const Model& model) {
 
 /// One input for a reader of models.
 inline void run(Model (*reader)(const std::string&, const ImportOptions&), const char* name,
-                const std::uint8_t* data, std::size_t size) {
+                const std::uint8_t* data, std::size_t size, const ImportOptions& options = small_options()) {
   const std::string path = folder().file(name, data, size);
   try {
-    check(reader(path, small_options()));
+    check(reader(path, options));
   } catch (const InputError& error) {
     check(error);
   }

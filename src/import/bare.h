@@ -4,10 +4,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "import/model.h"
@@ -37,15 +35,6 @@ inline Diagnostic file_error(const std::string& path, std::string message, std::
 }
 inline Diagnostic file_warning(const std::string& path, std::string message, std::string hint = {}) {
   return {Severity::warning, {path, 0, 0}, std::move(message), std::move(hint), {}, 0};
-}
-
-/// Throws InputError where the file is larger than the limits allow.
-inline void check_file_size(const std::string& path, const Limits& limits) {
-  std::error_code unknown;
-  const auto size = std::filesystem::file_size(path, unknown);
-  if (!unknown && size > limits.file_bytes)
-    throw InputError(file_error(path, "the file has " + std::to_string(size) + " bytes; the limit is " +
-                                          std::to_string(limits.file_bytes)));
 }
 
 /// The first `most` bytes of a file, or all there are.

@@ -146,6 +146,14 @@ std::optional<std::string_view> Buffers::view(std::size_t number) {
   return all->substr(whole(json, "byteOffset", 0), whole(json, "byteLength", 0));
 }
 
+void Buffers::read_again(std::uint64_t sparse_elements, const std::string& at) {
+  constexpr std::uint64_t most_times = 16, harmless = 1 << 20;
+  sparse_elements_ += sparse_elements;
+  if (sparse_elements_ > harmless && sparse_elements_ / most_times > total_)
+    remarks_.fail(at, "what shares its elements makes them more than " + std::to_string(most_times) +
+                          " times the file's bytes");
+}
+
 bool Buffers::is_open(std::size_t accessor) const {
   const Json& json = root_["accessors"][accessor];
   const auto open = [&](const Json& view) {
@@ -202,6 +210,7 @@ Accessor::Accessor(const Json& root, std::size_t number, Buffers& buffers, Remar
 
 void Accessor::read_sparse(const Json& sparse, const std::string& at, Buffers& buffers, Remarks& remarks) {
   const std::size_t count = whole(sparse, "count", 0);
+  buffers.read_again(count, at);
   const Json &indices = sparse["indices"], &values = sparse["values"];
   const auto index_bytes = buffers.view(whole(indices, "bufferView", 0)),
              value_bytes = buffers.view(whole(values, "bufferView", 0));

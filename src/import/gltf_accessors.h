@@ -49,6 +49,9 @@ class Buffers {
   std::optional<std::string_view> view(std::size_t buffer_view);
   /// Whether all bytes of an accessor are there; false for one that is nothing but zeroes.
   bool has_accessor(std::size_t accessor);
+  /// Says of a sparse accessor that its elements are read once more. Throws InputError where what shares
+  /// them makes too many of few.
+  void read_again(std::uint64_t sparse_elements, const std::string& at);
   /// All bytes that the file and its buffers have brought so far.
   std::uint64_t total() const { return total_; }
 
@@ -69,6 +72,7 @@ class Buffers {
   std::vector<Buffer> buffers_;
   std::map<std::string, std::string> files_;  ///< By path: several buffers may name one.
   std::uint64_t total_;
+  std::uint64_t sparse_elements_ = 0;  ///< Read so far.
 };
 
 /// The elements of one accessor, read where they lie.

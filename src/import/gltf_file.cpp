@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "import/bare.h"
 #include "import/gltf_json.h"
 #include "import/text_file.h"
 

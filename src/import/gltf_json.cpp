@@ -204,6 +204,15 @@ bool flag(const Json& object, const char* key, bool otherwise) {
   const Json& value = member(object, key);
   return value.is_boolean() ? value.get<bool>() : otherwise;
 }
+std::string name_in(const Json& object) {
+  constexpr std::size_t longest = 200;
+  std::string name = text(object, "name");
+  if (name.size() <= longest) return name;
+  std::size_t end = longest;
+  while (end > 0 && (std::uint8_t(name[end]) & 0xc0) == 0x80) --end;  // within a character
+  name.resize(end);
+  return name + "...";
+}
 const Json& extension(const Json& object, const char* name) {
   return member(member(object, "extensions"), name);
 }

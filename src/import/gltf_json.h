@@ -59,6 +59,9 @@ double number(const Json& object, const char* key, double otherwise);
 std::uint64_t whole(const Json& object, const char* key, std::uint64_t otherwise);
 std::string text(const Json& object, const char* key, const char* otherwise = "");
 bool flag(const Json& object, const char* key, bool otherwise);
+/// The name of what an object describes, cut off where it is longer than anybody's: what is shown often has
+/// it each time.
+std::string name_in(const Json& object);
 /// An extension's object at this place, or a null value.
 const Json& extension(const Json& object, const char* name);
 

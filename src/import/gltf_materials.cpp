@@ -64,6 +64,12 @@ std::uint32_t Materials::tinted(std::uint32_t original, const std::array<float, 
   if (color == std::array<float, 4>{1, 1, 1, 1}) return original;
   const auto [found, is_new] = tinted_.try_emplace({original, color}, std::uint32_t(model_.materials.size()));
   if (!is_new) return found->second;
+  // Each takes some hundred bytes; primitives may share colours, and so make many pairs of few.
+  constexpr std::uint64_t harmless = 1 << 16, bytes_of_one = 64;
+  if (tinted_.size() > harmless && tinted_.size() > buffers_.total() / bytes_of_one)
+    remarks_.fail("/materials", "the colours of points, lines and what glows make " +
+                                    std::to_string(tinted_.size()) +
+                                    " materials, too many for a file of this size");
   Material material = model_.materials[original];
   material.name = names_(material.name + ", tinted");
   Rgb& base = material.metallic_roughness ? material.metallic_roughness->base_color : material.emission;
@@ -77,7 +83,7 @@ std::uint32_t Materials::tinted(std::uint32_t original, const std::array<float, 
 void Materials::add(const Json& json, const std::string& at) {
   Material material;
   if (!at.empty()) {
-    const std::string name = text(json, "name");
+    const std::string name = name_in(json);
     material.name = names_(name.empty() ? "material " + std::to_string(model_.materials.size() + 1) : name);
   }
   material.place.file = remarks_.file();

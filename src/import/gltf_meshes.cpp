@@ -169,7 +169,7 @@ const std::vector<Meshes::Part>& Meshes::parts(std::size_t mesh, std::size_t ski
   const auto [found, is_new] = parts_.try_emplace(Key{mesh, skin, weights});
   if (!is_new) return found->second;
   const Json& json = root_["meshes"][mesh];
-  const std::string name = text(json, "name");
+  const std::string name = name_in(json);
   const std::vector<double> used = weights.empty() ? own_weights(json) : weights;
   for (std::size_t i = 0; i < json["primitives"].size(); ++i) {
     const Json& primitive = json["primitives"][i];

@@ -111,7 +111,7 @@ class SceneReader {
     meshes_.set_size(std::isfinite(diagonal) ? std::max(diagonal, 1e-3) : 1);
   }
 
-  std::string name_of(std::size_t node) const { return text(root_["nodes"][node], "name"); }
+  std::string name_of(std::size_t node) const { return name_in(root_["nodes"][node]); }
 
   void objects(std::size_t number) {
     const Json& node = root_["nodes"][number];
@@ -164,7 +164,7 @@ class SceneReader {
     const Json& json = root_["cameras"][index.get<std::size_t>()];
     const std::string at = std::string("/cameras") / index.get<std::size_t>();
     NamedCamera result;
-    result.name = text(json, "name");
+    result.name = name_in(json);
     if (result.name.empty()) result.name = name_of(number);
     Camera& camera = result.camera;
     Vec3<double> forward;
@@ -202,7 +202,7 @@ class SceneReader {
     const Json& json = extension(root_, "KHR_lights_punctual")["lights"][index.get<std::size_t>()];
     Light result;
     result.place.file = remarks_.file();
-    result.name = text(json, "name");
+    result.name = name_in(json);
     if (result.name.empty()) result.name = name_of(number);
     if (result.name.empty()) result.name = "light " + std::to_string(model_.lights.size() + 1);
     result.name = light_names_(result.name);

@@ -574,7 +574,7 @@ std::vector<Diagnostic> lint_obj(const std::string& path, const ImportOptions& g
 
 std::vector<Diagnostic> lint_mtl(const std::string& path, const ImportOptions& given) {
   const ImportOptions options = within_folder_of(path, given);
-  must_be_within(path, options.limits.file_bytes);
+  check_file_size(path, options.limits);
   const TextFile file = read_text_file(path);
   const MaterialLibrary library = read_material_library(file, options);
   Remarks remarks;

@@ -22,7 +22,6 @@
 
 #include <fmt/format.h>
 
-#include "import/bare.h"
 #include "import/model.h"
 #include "import/text_file.h"
 #include "scene/triangulate.h"

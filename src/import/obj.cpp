@@ -78,7 +78,7 @@ class ObjReader {
  public:
   ObjReader(const std::string& path, const ImportOptions& options)
       : options_(within_folder_of(path, options)), pieces_(path) {
-    must_be_within(path, options.limits.file_bytes);
+    check_file_size(path, options.limits);
     used_.push_back({});
     slot_of_name_[""] = 0;
   }
@@ -441,7 +441,7 @@ class ObjReader {
     if (!paths_read_.insert(file.path).second) return Found::yes;
     libraries_.push_back(file.path);
     try {
-      must_be_within(file.path, options_.limits.file_bytes);
+      check_file_size(file.path, options_.limits);
       MaterialLibrary library = read_material_library(read_text_file(file.path), options_);
       warnings_.insert(warnings_.end(), library.warnings.begin(), library.warnings.end());
       const auto first_texture = std::uint32_t(textures_.size());

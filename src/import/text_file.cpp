@@ -288,14 +288,14 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-void must_be_within(const std::string& path, std::uint64_t most) {
-  std::error_code ignored;
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  if (ignored || size <= most) return;
+void check_file_size(const std::string& path, const Limits& limits) {
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (unknown || size <= limits.file_bytes) return;
   Diagnostic diagnostic;
   diagnostic.place.file = path;
   diagnostic.message =
-      "the file has " + std::to_string(size) + " bytes; " + std::to_string(most) + " may be read";
+      "the file has " + std::to_string(size) + " bytes; the limit is " + std::to_string(limits.file_bytes);
   throw InputError(std::move(diagnostic));
 }
 

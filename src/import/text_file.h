@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "lambent/diagnostics.h"
+#include "lambent/limits.h"
 
 namespace lambent {
 
@@ -31,8 +32,8 @@ namespace lambent {
 /// directory"), also for devices.
 std::string read_file(const std::string& path);
 
-/// Throws InputError where the file is larger than `most` bytes; says nothing of one that is not there.
-void must_be_within(const std::string& path, std::uint64_t most);
+/// Throws InputError where the file is larger than the limits allow; says nothing of one that is not there.
+void check_file_size(const std::string& path, const Limits& limits);
 
 /// A file's text, or a piece of it, as valid UTF-8 without a byte order mark.
 struct TextFile {

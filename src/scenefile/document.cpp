@@ -300,6 +300,23 @@ const Node* value_of(const Node& mapping, std::string_view key) {
   return nullptr;
 }
 
+namespace {
+
+/// Nodes count bytes, as carets do; an editor's columns are characters.
+bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+}  // namespace
+
+void show_line(Diagnostic& diagnostic, std::string_view line, int column) {
+  constexpr std::size_t reach = 600;  // bytes: more than is shown
+  const std::size_t at = std::min(std::size_t(std::max(0, column - 1)), line.size());
+  std::size_t begin = at > reach ? at - reach : 0, end = std::min(line.size(), at + reach);
+  while (begin < at && is_tail(line[begin])) ++begin;
+  while (end < line.size() && is_tail(line[end])) ++end;
+  diagnostic.excerpt = line.substr(begin, end - begin);
+  diagnostic.caret_column = column > 0 ? column - int(begin) : 0;
+}
+
 Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message, std::string hint) {
   const Source& source = document.sources[node.source];
   Diagnostic diagnostic;
@@ -312,10 +329,7 @@ Diagnostic diagnostic_at(const Document& document, const Node& node, std::string
   }
   if (node.line >= 1 && node.line <= int(source.lines.size())) {
     const std::string& line = source.lines[std::size_t(node.line) - 1];
-    diagnostic.excerpt = line;
-    diagnostic.caret_column = node.column;
-    // Nodes count bytes, as carets do; an editor's columns are characters.
-    const auto is_tail = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+    show_line(diagnostic, line, node.column);
     const auto before = std::min<std::size_t>(std::size_t(std::max(0, node.column - 1)), line.size());
     if (source.is_file)
       diagnostic.place.column -= int(std::count_if(line.begin(), line.begin() + long(before), is_tail));

@@ -52,6 +52,10 @@ Document parse_yaml(std::string_view text, const std::string& name);
 /// path leads nowhere.
 void apply_setting(Document& document, const std::string& path, const std::string& value);
 
+/// Lets a diagnostic show a line of its file with a caret under that column, from 1 in bytes. Of a very long
+/// line only what is near is kept: there may be a thousand errors in it.
+void show_line(Diagnostic& diagnostic, std::string_view line, int column);
+
 /// A remark about `node`, with the line it stands in.
 Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message,
                          std::string hint = {});

@@ -394,10 +394,19 @@ std::optional<std::uint32_t> ObjectReader::material(const Value& value) {
   std::string name;
   if (!reader_.text(value, "a material's name or a mapping", name)) return {};
   if (const auto found = by_name_.find(name); found != by_name_.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [other, index] : by_name_) known.push_back(other);
-  reader_.error(*value.node, "there is no material '" + name + "'",
-                known.empty() ? "the scene has no list of materials" : suggestion(name, known));
+  std::string hint = "the scene has no list of materials";
+  if (!by_name_.empty()) {
+    // What was meant is looked for among all names, but not for thousands of errors among thousands of names.
+    constexpr std::size_t most_compared = 100000;
+    hint.clear();
+    compared_ += by_name_.size();
+    if (compared_ <= most_compared) {
+      std::vector<std::string> known;
+      for (const auto& [other, index] : by_name_) known.push_back(other);
+      hint = suggestion(name, known);
+    }
+  }
+  reader_.error(*value.node, "there is no material '" + name + "'", hint);
   return {};
 }
 
@@ -405,6 +414,30 @@ std::string model_key(const std::string& folder, const std::string& file) {
   const std::filesystem::path path =
       std::filesystem::path(folder) / file;  // an absolute `file` stands for itself
   return path.lexically_normal().string();
+}
+
+/// Gives each object of a model a list of the materials that its shape has, and no others: a list of all of
+/// them for each of many objects would make gigabytes of a small file.
+void list_own_materials(Model& model) {
+  if (model.objects.empty())
+    for (std::uint32_t i = 0; i < model.shapes.size(); ++i) model.objects.push_back({{}, i, {}, {}});
+  std::vector<std::vector<std::uint32_t>> own(model.shapes.size());
+  constexpr std::uint32_t none = ~0u;
+  std::vector<std::uint32_t> place(model.materials.size(), none);
+  for (std::size_t i = 0; i < model.shapes.size(); ++i) {
+    std::vector<std::uint32_t>& of_primitive = model.shapes[i].material_of_primitive;
+    if (of_primitive.empty()) own[i] = {0};
+    for (std::uint32_t& material : of_primitive) {
+      if (place[material] == none) {
+        place[material] = std::uint32_t(own[i].size());
+        own[i].push_back(material);
+      }
+      material = place[material];
+    }
+    for (const std::uint32_t material : own[i]) place[material] = none;
+    if (own[i].size() == 1) std::vector<std::uint32_t>().swap(of_primitive);
+  }
+  for (ModelObject& object : model.objects) object.materials = own[object.shape];
 }
 
 const ObjectReader::Placed* ObjectReader::model(const Value& file, bool is_scene) {
@@ -433,6 +466,14 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file, bool is_scene
       return nullptr;
     }
   }
+  if (!is_scene) list_own_materials(*model);  // a scene's objects have theirs
+  for (const Shape& shape : model->shapes) stored_ += primitive_count(shape);
+  if (stored_ > import_.limits.primitives) {
+    reader_.error(*file.node,
+                  fmt::format("together the files have more than {} primitives", import_.limits.primitives),
+                  "--max-primitives sets another limit");
+    return nullptr;
+  }
   std::vector<Place> replaced_places;
   const std::size_t first_material = scene_.materials.size();
   for (Material& material : model->materials) {
@@ -450,8 +491,6 @@ const ObjectReader::Placed* ObjectReader::model(const Value& file, bool is_scene
     for (MaterialMap& map : scene_.materials[i].maps) map.map.texture += first_texture;
   const auto first_shape = std::uint32_t(scene_.shapes.size());
   placed.objects = std::move(model->objects);
-  if (placed.objects.empty())
-    for (std::uint32_t i = 0; i < model->shapes.size(); ++i) placed.objects.push_back({{}, i, {}, {}});
   for (ModelObject& object : placed.objects) object.shape += first_shape;
   std::move(model->shapes.begin(), model->shapes.end(), std::back_inserter(scene_.shapes));
   for (Diagnostic& warning : model->warnings) {
@@ -653,6 +692,23 @@ bool ObjectReader::shape(const Section& section, const Value& value, Object& obj
   return reader_.count() == before;
 }
 
+/// Files that show files multiply: what is stored once is an object each time, with a name of its own.
+bool ObjectReader::has_room(const Object& object, const Value& value) {
+  // An object takes as much memory as some ten triangles, and passes through several hands.
+  constexpr std::uint64_t weight = 100, harmless = weight << 16;
+  const std::uint64_t most = std::max(import_.limits.primitives, harmless);
+  for (const ModelObject& part : placed_shapes_)
+    shown_ += weight + object.name.size() + part.name.size() + part.materials.size();
+  if (shown_ <= most) return true;
+  if (!full_)
+    reader_.error(*value.node, "the scene shows too many objects",
+                  fmt::format("they count for more than {} primitives: {} each, and one for each letter of "
+                              "their names; --max-primitives sets another limit",
+                              most, weight));
+  full_ = true;
+  return false;
+}
+
 void ObjectReader::object(const Value& value, const std::string& default_name) {
   const Format& f = format();
   std::vector<Field> fields = f.object.fields;
@@ -699,17 +755,15 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
   }
   if (!good || first == nullptr) return;
   if (file_ == nullptr) object.materials = {own ? *own : default_material()};
+  if (!has_room(object, value)) return;
   const Transform placing = object.world_from_object;
   const std::string name = object.name;
   for (const ModelObject& part : placed_shapes_) {
     object.shape = part.shape;
     if (file_ != nullptr) {
-      object.materials = file_->materials;
-      if (!part.materials.empty()) {
-        object.materials.clear();
-        for (const std::uint32_t m : part.materials) object.materials.push_back(file_->materials[m]);
-      }
-      if (own) object.materials.assign(object.materials.size(), *own);
+      object.materials.clear();
+      for (const std::uint32_t m : part.materials)
+        object.materials.push_back(own ? *own : file_->materials[m]);
     }
     object.world_from_object = placing * part.world_from_object;
     object.name = part.name.empty() ? name : name + "/" + part.name;

@@ -36,6 +36,7 @@ class ObjectReader {
   std::optional<std::uint32_t> material(const Value& value);
   std::uint32_t default_material();
   void add_shape(std::string name, Primitives primitives);
+  bool has_room(const Object& object, const Value& value);
 
   Reader& reader_;
   Scene& scene_;
@@ -48,6 +49,10 @@ class ObjectReader {
   std::vector<ModelObject> placed_shapes_;  // of the object at hand
   const Placed* file_ = nullptr;            // likewise, if it is a model file
   std::size_t inline_materials_ = 0;
+  std::size_t compared_ = 0;  // names, to find out what misspelled ones mean
+  std::uint64_t stored_ = 0;  // primitives of the files' shapes
+  std::uint64_t shown_ = 0;   // what all objects count for
+  bool full_ = false;         // that there are too many has been said
 };
 
 /// The transform of `value`: one step or a list of steps. False if something was wrong.

@@ -445,10 +445,26 @@ void read_version(Reader& reader, const Value& value) {
                  "write lambent: 1");
 }
 
+/// Scene files that show others, while one is read.
+struct Nesting {
+  int depth = 0;
+  std::uint64_t read = 0;         ///< How many of them, since the first one was opened.
+  std::vector<std::string> open;  ///< Their paths.
+};
+thread_local Nesting nesting;
+/// Two files on each of thirty levels would be read a billion times.
+constexpr std::uint64_t most_nested = 4096;
+
 }  // namespace
 
 Scene read_scene(const Document& document, const std::string& folder, LoadedModels models,
                  const ImportOptions& import) {
+  struct Level {
+    Level() {
+      if (nesting.depth++ == 0) nesting.read = 0;
+    }
+    ~Level() { --nesting.depth; }
+  } level;
   const Files files{folder, import};
   Reader reader(document);
   Scene scene;
@@ -502,8 +518,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
       if (fault.place.file != source.name || fault.place.line < 1 ||
           fault.place.line > int(source.lines.size()))
         continue;
-      fault.excerpt = source.lines[std::size_t(fault.place.line) - 1];
-      fault.caret_column = fault.place.column;
+      show_line(fault, source.lines[std::size_t(fault.place.line) - 1], fault.place.column);
     }
     throw InputError(std::move(faults));
   }
@@ -511,18 +526,21 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
 }
 
 Model import_scene(const std::string& path, const ImportOptions& import) {
-  // Scenes that show each other would never end.
-  static thread_local std::vector<std::string> open;
-  const std::string key = std::filesystem::weakly_canonical(path).string();
-  if (std::find(open.begin(), open.end(), key) != open.end()) {
+  const auto refuse = [&](const std::string& message) {
     Diagnostic diagnostic;
     diagnostic.place.file = path;
-    diagnostic.message = "this scene file shows itself, by way of 'scene'";
+    diagnostic.message = message;
     throw InputError(diagnostic);
-  }
-  open.push_back(key);
+  };
+  // Scenes that show each other would never end.
+  const std::string key = std::filesystem::weakly_canonical(path).string();
+  if (std::find(nesting.open.begin(), nesting.open.end(), key) != nesting.open.end())
+    refuse("this scene file shows itself, by way of 'scene'");
+  if (++nesting.read > most_nested)
+    refuse(fmt::format("scenes show scenes more than {} times over", most_nested));
+  nesting.open.push_back(key);
   struct Close {
-    ~Close() { open.pop_back(); }
+    ~Close() { nesting.open.pop_back(); }
   } close;
   Scene scene = read_scene(parse_yaml(read_file(path), path),
                            std::filesystem::path(path).parent_path().string(), {}, import);

@@ -7,53 +7,27 @@
 #include <map>
 
 #include "gltf_builder.h"
-#include "import/model.h"
-#include "support.h"
+#include "read_model.h"
 
 namespace lambent {
 namespace {
 
 using nlohmann::json;
-using test::GltfBuilder;
-using Strings = std::vector<std::string>;
-using Files = std::map<std::string, std::string>;
+using test::GltfBuilder, test::Files, test::mesh_of, test::printed, test::Strings, test::warnings_of;
 
 Model read(const std::string& text, const Files& beside = {}, const ImportOptions& options = {},
            const std::string& name = "model.gltf") {
-  const test::TemporaryDirectory folder;
-  for (const auto& [file, content] : beside) test::write_text(folder.file(file), content);
-  test::write_text(folder.file(name), text);
-  return import_model(folder.file(name), options);
-}
-
-std::string printed(const Diagnostic& diagnostic) {
-  Diagnostic d = diagnostic;
-  d.place.file = std::filesystem::path(d.place.file).filename().string();
-  return to_string(d);
+  return test::read_model(import_model, name, text, options, beside);
 }
 Strings errors_of(const std::string& text, const std::string& name = "model.gltf", const Files& beside = {},
                   const ImportOptions& options = {}) {
-  Strings result;
-  try {
-    read(text, beside, options, name);
-  } catch (const InputError& error) {
-    for (const Diagnostic& d : error.diagnostics()) result.push_back(printed(d));
-  }
-  return result;
-}
-Strings warnings_of(const Model& model) {
-  Strings result;
-  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
-  return result;
+  return test::errors_when([&] { read(text, beside, options, name); });
 }
 bool any_contains(const Strings& lines, const std::string& text) {
   return std::any_of(lines.begin(), lines.end(),
                      [&](const auto& line) { return line.find(text) != std::string::npos; });
 }
 
-const Mesh& mesh_of(const Model& model, std::size_t shape = 0) {
-  return std::get<Mesh>(model.shapes.at(shape).primitives);
-}
 const MaterialMap* map_of(const Material& material, MapSlot slot) {
   for (const MaterialMap& map : material.maps)
     if (map.slot == slot) return &map;
@@ -825,6 +799,17 @@ TEST(Gltf, AFileOfNothingIsAModelOfNothing) {
   EXPECT_EQ(warnings_of(model), Strings{"model.gltf: warning: the file shows nothing"});
 }
 
+TEST(Gltf, NamesAreCutOffBetweenCharacters) {
+  // Nodes that share a mesh have its name each time.
+  std::string name = "a";
+  for (int i = 0; i < 150; ++i) name += "\u00e9";
+  GltfBuilder file = with_square();
+  file.root["meshes"][0]["name"] = name;
+  EXPECT_EQ(read(file.text()).objects.at(0).name, name.substr(0, 199) + "...");
+  file.root["meshes"][0]["name"] = name.substr(0, 199);
+  EXPECT_EQ(read(file.text()).objects.at(0).name, name.substr(0, 199));
+}
+
 TEST(Gltf, SharingMakesNoModelOfAnySize) {
   // Primitives of the same numbers.
   GltfBuilder file;
@@ -842,6 +827,43 @@ TEST(Gltf, SharingMakesNoModelOfAnySize) {
   wide.root["meshes"][0]["primitives"] = json(400, wide.root["meshes"][0]["primitives"][0]);
   for (int i = 0; i < 400; ++i) wide.add_node({{"mesh", 0}});
   EXPECT_TRUE(any_contains(errors_of(wide.text()), "the scene shows more objects than its file has bytes"));
+  // Primitives of the same sparse accessor.
+  GltfBuilder sparse;
+  constexpr std::size_t count = 2000;
+  std::vector<std::uint16_t> places(count);
+  for (std::size_t i = 0; i < count; ++i) places[i] = std::uint16_t(i);
+  std::vector<float> values(3 * count, 0);
+  values[3] = values[7] = 1;  // (1, 0, 0) and (0, 1, 0)
+  sparse.add(places, "SCALAR"), sparse.add(values, "VEC3");
+  sparse.root["accessors"].push_back({{"componentType", 5126},
+                                      {"count", count},
+                                      {"type", "VEC3"},
+                                      {"min", {0, 0, 0}},
+                                      {"max", {1, 1, 0}},
+                                      {"sparse",
+                                       {{"count", count},
+                                        {"indices", {{"bufferView", 0}, {"componentType", 5123}}},
+                                        {"values", {{"bufferView", 1}}}}}});
+  const json one = {{"attributes", {{"POSITION", 2}}},
+                    {"indices", sparse.add<std::uint16_t>({0, 1, 2}, "SCALAR")}};
+  sparse.show(one);
+  EXPECT_EQ(read(sparse.text()).shapes.size(), 1u);
+  sparse.root["meshes"][0]["primitives"] = json(1000, one);
+  EXPECT_TRUE(
+      any_contains(errors_of(sparse.text()), "/accessors/2/sparse: what shares its elements makes them"));
+  // Colours of points, each for several materials.
+  GltfBuilder dots;
+  std::vector<std::uint16_t> colors;
+  const auto level = [](int i) { return std::uint16_t(std::lround(65535.0 * i * i / (31 * 31))); };
+  for (int i = 0; i < 17000; ++i)
+    colors.insert(colors.end(), {level(i % 32), level(i / 32 % 32), level(i / 1024), 65535});
+  const std::size_t of = dots.add(colors, "VEC4", true),
+                    at = dots.add(std::vector<float>(3 * 17000, 0.5f), "VEC3");
+  for (int material = 0; material < 4; ++material) {
+    dots.root["materials"].push_back(json::object());
+    dots.show({{"attributes", {{"POSITION", at}, {"COLOR_0", of}}}, {"mode", 0}, {"material", material}});
+  }
+  EXPECT_TRUE(any_contains(errors_of(dots.text()), "materials, too many for a file of this size"));
 }
 
 TEST(Gltf, AnimationsAtATime) {

@@ -6,51 +6,22 @@
 #include <filesystem>
 #include <map>
 
-#include "import/model.h"
 #include "math/functions.h"
-#include "support.h"
+#include "read_model.h"
 
 namespace lambent {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using test::mesh_of, test::printed, test::Strings, test::Triangles, test::warnings_of;
 
 /// The model that `text` makes as an OBJ file; other files may lie beside it.
-Model obj(const std::string& text, const std::map<std::string, std::string>& beside = {}) {
-  const test::TemporaryDirectory folder;
-  for (const auto& [name, content] : beside) test::write_text(folder.file(name), content);
-  test::write_text(folder.file("model.obj"), text);
-  return import_obj(folder.file("model.obj"));
+Model obj(const std::string& text, const test::Files& beside = {}) {
+  return test::read_model(import_obj, "model.obj", text, {}, beside);
 }
-
-const Mesh& mesh_of(const Model& model) { return std::get<Mesh>(model.shapes.at(0).primitives); }
-
-/// A diagnostic as the program prints it, without the folder.
-std::string printed(const Diagnostic& diagnostic) {
-  Diagnostic d = diagnostic;
-  d.place.file = std::filesystem::path(d.place.file).filename().string();
-  return to_string(d);
-}
-
 /// Everything that is wrong with `text`, as the program prints it.
-std::vector<std::string> errors_of(const std::string& text,
-                                   const std::map<std::string, std::string>& beside = {}) {
-  std::vector<std::string> result;
-  try {
-    obj(text, beside);
-  } catch (const InputError& error) {
-    for (const Diagnostic& d : error.diagnostics()) result.push_back(printed(d));
-  }
-  return result;
+Strings errors_of(const std::string& text, const test::Files& beside = {}) {
+  return test::errors_when([&] { obj(text, beside); });
 }
-
-std::vector<std::string> warnings_of(const Model& model) {
-  std::vector<std::string> result;
-  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
-  return result;
-}
-
-using Strings = std::vector<std::string>;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -603,7 +574,7 @@ TEST(Obj, LimitsHold) {
             "model.obj:6:1: error: more than 1 primitive may not be read\n    f 1 2 3 4\n    ^");
   limits.primitives = 2;
   limits.file_bytes = 100;
-  EXPECT_EQ(error_with(limits), "m.mtl: error: the file has 200 bytes; 100 may be read");
+  EXPECT_EQ(error_with(limits), "m.mtl: error: the file has 200 bytes; the limit is 100");
 }
 
 TEST(Obj, AMissingFileIsNamed) {

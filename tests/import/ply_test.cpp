@@ -1,72 +1,29 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
-#include "import/model.h"
 #include "lambent/image.h"
-#include "support.h"
+#include "read_model.h"
 
 namespace lambent {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Strings = std::vector<std::string>;
+using test::Bytes, test::mesh_of, test::Strings, test::Triangles, test::warnings_of;
 using Color = std::array<float, 4>;
 
-Model ply(const std::string& bytes, const ImportOptions& options = {},
-          const std::map<std::string, std::string>& beside = {}) {
-  const test::TemporaryDirectory folder;
-  for (const auto& [name, content] : beside) test::write_text(folder.file(name), content);
-  test::write_text(folder.file("model.ply"), bytes);
-  return import_ply(folder.file("model.ply"), options);
+Model ply(const std::string& bytes, const ImportOptions& options = {}, const test::Files& beside = {}) {
+  return test::read_model(import_ply, "model.ply", bytes, options, beside);
 }
-
-const Mesh& mesh_of(const Model& model) { return std::get<Mesh>(model.shapes.at(0).primitives); }
 const std::vector<Sphere>& spheres_of(const Model& model) {
   return std::get<std::vector<Sphere>>(model.shapes.at(0).primitives);
 }
-
-std::string printed(const Diagnostic& diagnostic) {
-  Diagnostic d = diagnostic;
-  d.place.file = std::filesystem::path(d.place.file).filename().string();
-  return to_string(d);
-}
 std::string error_of(const std::string& bytes, const ImportOptions& options = {}) {
-  try {
-    ply(bytes, options);
-  } catch (const InputError& error) {
-    return printed(error.diagnostics().at(0));
-  }
-  return "no error";
+  const Strings errors = test::errors_when([&] { ply(bytes, options); });
+  return errors.empty() ? "no error" : errors[0];
 }
-Strings warnings_of(const Model& model) {
-  Strings result;
-  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
-  return result;
-}
-
-/// Numbers as bytes, in either order.
-class Bytes {
- public:
-  explicit Bytes(bool little) : little_(little) {}
-  template <class T> Bytes& operator<<(T value) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    if (little_ != (std::endian::native == std::endian::little)) std::reverse(bytes, bytes + sizeof(T));
-    text.append(bytes, sizeof(T));
-    return *this;
-  }
-  std::string text;
-
- private:
-  bool little_;
-};
 
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string faces = "property list uchar int vertex_indices\n";

@@ -1,48 +1,23 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <map>
 
-#include "import/model.h"
 #include "lambent/image.h"
-#include "support.h"
+#include "read_model.h"
 
 namespace lambent {
 namespace {
 
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-using Strings = std::vector<std::string>;
+using test::mesh_of, test::Strings, test::Triangles, test::warnings_of;
 using Color = std::array<float, 4>;
 
 Model stl(const std::string& bytes, const ImportOptions& options = {}) {
-  const test::TemporaryDirectory folder;
-  test::write_text(folder.file("model.stl"), bytes);
-  return import_stl(folder.file("model.stl"), options);
-}
-const Mesh& mesh_of(const Model& model, std::size_t shape = 0) {
-  return std::get<Mesh>(model.shapes.at(shape).primitives);
-}
-std::string printed(const Diagnostic& diagnostic) {
-  Diagnostic d = diagnostic;
-  d.place.file = std::filesystem::path(d.place.file).filename().string();
-  return to_string(d);
+  return test::read_model(import_stl, "model.stl", bytes, options);
 }
 std::string error_of(const std::string& bytes, const ImportOptions& options = {}) {
-  try {
-    stl(bytes, options);
-  } catch (const InputError& error) {
-    return printed(error.diagnostics().at(0));
-  }
-  return "no error";
-}
-Strings warnings_of(const Model& model) {
-  Strings result;
-  for (const Diagnostic& d : model.warnings) result.push_back(printed(d));
-  return result;
+  const Strings errors = test::errors_when([&] { stl(bytes, options); });
+  return errors.empty() ? "no error" : errors[0];
 }
 
 struct Facet {
@@ -52,19 +27,14 @@ struct Facet {
 std::string binary(const std::vector<Facet>& facets, std::string header = "made by hand",
                    bool little = true) {
   header.resize(80);
-  const auto put = [&](auto value) {
-    char bytes[sizeof(value)];
-    std::memcpy(bytes, &value, sizeof(value));
-    if (little != (std::endian::native == std::endian::little)) std::reverse(bytes, bytes + sizeof(value));
-    header.append(bytes, sizeof(value));
-  };
-  put(std::uint32_t(facets.size()));
+  test::Bytes bytes(little);
+  bytes << std::uint32_t(facets.size());
   for (const Facet& facet : facets) {
-    for (int i = 0; i < 3; ++i) put(0.f);
-    for (const float x : facet.corners) put(x);
-    put(facet.attribute);
+    for (int i = 0; i < 3; ++i) bytes << 0.f;
+    for (const float x : facet.corners) bytes << x;
+    bytes << facet.attribute;
   }
-  return header;
+  return header + bytes.text;
 }
 const std::vector<Facet> square = {{{0, 0, 0, 1, 0, 0, 1, 1, 0}}, {{0, 0, 0, 1, 1, 0, -0.f, 1, 0}}};
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "import/gltf_builder.h"
 #include "scene/scene.h"
 #include "scenefile/errors.h"
 #include "scenefile/sample.h"
@@ -226,6 +227,30 @@ TEST(SceneFile, MaterialsByNameInPlaceAndByDefault) {
   EXPECT_EQ(scene->materials.size(), 3u);
 }
 
+TEST(SceneFile, ErrorsInALongLineKeepWhatIsNear) {
+  std::string text = head + "objects: [";
+  for (int i = 0; i < 300; ++i) text += "{sphere: {center: [0, 0, 0], radius: -1}}, ";
+  const auto errors = errors_of(text + "]\n");
+  ASSERT_EQ(errors.size(), 300u);
+  for (const Diagnostic& error : errors) {
+    EXPECT_LE(error.excerpt.size(), 1200u);
+    EXPECT_EQ(error.excerpt.substr(std::size_t(error.caret_column) - 1, 2), "-1");
+  }
+}
+
+TEST(SceneFile, NotEveryOneOfManyMisspelledNamesIsLookedUp) {
+  std::string text = head + "materials:\n";
+  for (int i = 0; i < 600; ++i) text += "- {name: material" + std::to_string(i) + "}\n";
+  text += "objects:\n";
+  for (int i = 0; i < 600; ++i)
+    text += "- {sphere: {center: [0, 0, 0], radius: 1}, material: matreial" + std::to_string(i) + "}\n";
+  const auto errors = errors_of(text);
+  ASSERT_EQ(errors.size(), 600u);
+  EXPECT_EQ(errors[0].hint, "did you mean 'material0'?");
+  EXPECT_EQ(errors[599].message, "there is no material 'matreial599'");
+  EXPECT_EQ(errors[599].hint, "");
+}
+
 /// A model with two materials, in a folder of its own.
 class MeshFiles : public testing::Test {
  protected:
@@ -274,6 +299,65 @@ TEST_F(MeshFiles, AnObjectsMaterialReplacesAll) {
   ASSERT_EQ(shape.material_of_primitive.size(), 2u);
   for (const std::uint32_t index : shape.material_of_primitive)
     EXPECT_EQ(scene->materials[object.materials.at(index)].name, "red");
+}
+
+TEST_F(MeshFiles, ObjectsCountNoMaterialsButTheirOwn) {
+  GltfBuilder file;
+  const std::size_t corners = file.add<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+  for (int i = 0; i < 3; ++i) {
+    file.root["materials"].push_back({{"name", "m" + std::to_string(i)}});
+    file.show({{"attributes", {{"POSITION", corners}}}, {"material", i}});
+  }
+  write_text(folder_.file("three.gltf"), file.text());
+  const ScenePtr scene = parse("objects: [{mesh: {file: three.gltf}}]\n");
+  ASSERT_EQ(scene->objects.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Object& object = scene->objects[i];
+    ASSERT_EQ(object.materials.size(), 1u);
+    EXPECT_EQ(scene->materials[object.materials[0]].name, "m" + std::to_string(i));
+    EXPECT_TRUE(scene->shapes[object.shape].material_of_primitive.empty());
+  }
+}
+
+/// What is wrong with a scene of the folder, or nothing.
+std::string message_of(const std::string& path) {
+  try {
+    load_scene(path);
+  } catch (const InputError& error) {
+    return error.diagnostics().at(0).message;
+  }
+  return {};
+}
+
+TEST_F(MeshFiles, ScenesThatShowScenesDoNotMultiplyWithoutEnd) {
+  // Ten of the next one on each of five levels are 100,000 objects.
+  for (int level = 0; level <= 5; ++level) {
+    std::string text = head + "objects:\n";
+    for (int i = 0; i < (level < 5 ? 10 : 1); ++i)
+      text += level < 5 ? "- {scene: {file: ten" + std::to_string(level + 1) + ".yaml}}\n"
+                        : "- {sphere: {center: [0, 0, 0], radius: 1}}\n";
+    write_text(folder_.file("ten" + std::to_string(level) + ".yaml"), text);
+  }
+  const LoadOptions small{.limits = {.primitives = 1000}};
+  EXPECT_EQ(load_scene(folder_.file("ten1.yaml"), small)->objects.size(), 10000u);
+  const auto refused = [&] { load_scene(folder_.file("ten0.yaml"), small); };
+  EXPECT_THROW(refused(), InputError);
+  EXPECT_EQ(load_scene(folder_.file("ten0.yaml"))->objects.size(), 100000u);
+}
+
+TEST_F(MeshFiles, ScenesAreNotReadWithoutEnd) {
+  // Two files on each of 13 levels, each of which shows both of the next level: 2^13 ways to the last one.
+  for (int level = 0; level <= 13; ++level)
+    for (const char* which : {"a", "b"}) {
+      const std::string next = std::to_string(level + 1);
+      write_text(folder_.file(which + std::to_string(level) + ".yaml"),
+                 head + (level < 13 ? "objects: [{scene: {file: a" + next + ".yaml}}, {scene: {file: b" +
+                                          next + ".yaml}}]\n"
+                                    : "objects: [{sphere: {center: [0, 0, 0], radius: 1}}]\n"));
+    }
+  EXPECT_NE(message_of(folder_.file("a0.yaml")).find("scenes show scenes more than 4096 times over"),
+            std::string::npos);
+  EXPECT_EQ(message_of(folder_.file("a4.yaml")), "");  // the count begins anew
 }
 
 TEST_F(MeshFiles, AModelFileIsASceneOfItsOwn) {
