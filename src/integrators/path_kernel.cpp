@@ -266,6 +266,7 @@ template <bool Seen> struct Work : Wavefront {
       const int k = __builtin_ctz(asked);
       const std::uint32_t ray = at.ray[k];
       const MaterialRecord& material = frame.materials[hits.material[k]];
+      if (material.dark_inside && !(lane_bits(hits.outside) >> k & 1)) continue;
       double searched = 0, weight = 1;
       if (rays.density[ray] > 0) {
         searched = emitter_density(frame, origin_of_light(ray), normal_at_origin(ray),

@@ -141,6 +141,23 @@ objects: [{{plane: {{point: [0, 0, 0], normal: [0, 1, 0]}}, material: {{diffuse:
   }
 }
 
+// A light with a dark back: from there it is black, and Le from its front, 4 pi / 1.
+TEST(Path, ALightShinesOnItsFrontAlone) {
+  const auto seen_from = [](const char* eye) {
+    return mean_of(shown(std::string("lambent: 1\ncamera: {projection: orthographic, eye: ") + eye +
+                         R"(, target: [0, 0, 0], height: 0.5}
+image: {size: [4, 4], samples: 1}
+integrator: {path: {}}
+lights: [{name: a, rectangle: {center: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0], intensity: 4}}]
+objects: [{sphere: {center: [0, 9, 0], radius: 0.1}}]
+)")
+                       .image)
+        .mean;
+  };
+  EXPECT_NEAR(seen_from("[0, 0, 3]"), 4 * M_PI, 1e-5);
+  EXPECT_EQ(seen_from("[0, 0, -3]"), 0);
+}
+
 // The light behind a pane of which a third is there: the pane's own light aside, two thirds of it.
 TEST(Path, WhatIsNotWhollyThereLetsLightThrough) {
   const std::string yaml = R"(lambent: 1
