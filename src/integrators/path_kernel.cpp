@@ -503,26 +503,28 @@ template <bool Seen> struct Work : Wavefront {
     for (; which; which &= which - 1) {
       const int k = __builtin_ctz(which);
       const std::uint32_t ray = at.ray[k];
-      frame.witness->hit(frame.witness->self,
-                         {rays.number[ray],
-                          rays.instance[ray],
-                          rays.geometry[ray],
-                          rays.primitive[ray],
-                          hits.material[k],
-                          lane_vector(hits.P, k),
-                          lane_vector(hits.N, k),
-                          lane_vector(hits.G, k),
-                          lane_vector(hits.V, k),
-                          lane_vector(hits.front, k),
-                          lane(hits.t, k),
-                          lane(hits.R, k),
-                          bool(lane_bits(hits.outside) >> k & 1),
-                          {},
-                          1,
-                          {lane_color(ambient_of(hits), k), lane_color(diffuse_of(hits), k),
-                           lane_color(specular_of(hits), k), lane_color(emission_of(hits), k),
-                           lane_color(reflect_of(hits), k), lane_color(transmit_of(hits), k),
-                           lane(shininess_of(hits), k), lane(ior_of(hits), k)}});
+      frame.witness->hit(
+          frame.witness->self,
+          {rays.number[ray],
+           rays.instance[ray],
+           rays.geometry[ray],
+           rays.primitive[ray],
+           hits.material[k],
+           lane_vector(hits.P, k),
+           lane_vector(hits.N, k),
+           lane_vector(hits.G, k),
+           lane_vector(hits.V, k),
+           lane_vector(hits.front, k),
+           lane(hits.t, k),
+           lane(hits.R, k),
+           bool(lane_bits(hits.outside) >> k & 1),
+           {},
+           1,
+           {lane_color(ambient_of(hits), k), lane_color(diffuse_of(hits), k),
+            lane_color(specular_of(hits), k), lane_color(emission_of(hits), k),
+            lane_color(reflect_of(hits), k), lane_color(transmit_of(hits), k), lane(shininess_of(hits), k),
+            lane(ior_of(hits), k), frame.materials[hits.material[k]].boundary,
+            frame.materials[hits.material[k]].eta, frame.materials[hits.material[k]].k}});
     }
   }
 };
