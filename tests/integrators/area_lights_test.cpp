@@ -203,8 +203,8 @@ TEST(AreaLight, IsSeenInMirrorsAndBlocksOtherLights) {
 TEST(AreaLight, HasANameAmongObjectsAndMaterials) {
   const ScenePtr scene = parse_scene(seen_scene("sphere: {center: [0, 0, 0], radius: 1}", "[0, 5, 0]"));
   ASSERT_EQ(standing_lights(*scene).size(), 1u);
-  const auto prepared = prepare(*scene);
-  const Derivation d = derive(scene, *prepared, choose_kernel(""), 4, 4, 1);
+  Exposure exposure(*scene);
+  const Derivation d = derive(scene, exposure, choose_kernel(""), 4, 4, exposure.portions());
   ASSERT_TRUE(d.rays[0].hits);
   EXPECT_EQ(d.rays[0].object, 1u);
   EXPECT_EQ(d.rays[0].hit.material, 1u);
