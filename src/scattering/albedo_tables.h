@@ -1,5 +1,5 @@
 #pragma once
-// Written by script/scattering_tables.cpp; do not edit. ggx_albedo.h reads it.
+// Written by make_albedo_tables.cpp; do not edit. ggx_albedo.h reads it.
 
 namespace lambent::albedo_tables {
 

@@ -1,7 +1,7 @@
 #pragma once
 // How much GGX reflects in all: of light from everywhere, seen from one direction, or from all on average.
 //
-// The numbers are our own, integrated and fitted by script/scattering_tables. With S = S(V) of ggx.h and
+// The numbers are our own, integrated and fitted by make_albedo_tables.cpp. With S = S(V) of ggx.h and
 // s = sqrt(N.V / S), in which the dip at N.V near alpha looks alike for all alpha,
 //
 //   E = sum of E_ij s^i roughness^j,     B = E (1 - S h)^5,  h = sum of h_ij s^i roughness^j

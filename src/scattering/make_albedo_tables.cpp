@@ -1,11 +1,11 @@
-// Computes what src/scattering/albedo_tables.h holds, and says how well it fits. By hand, where a formula of
-// src/scattering has changed:
+// Computes what src/scattering/albedo_tables.h holds, and says how well it fits. By hand, where a formula
+// that it integrates has changed:
 //
-//   c++ -std=c++20 -O3 -march=native -ffast-math script/scattering_tables.cpp -o /tmp/scattering_tables
-//   /tmp/scattering_tables > src/scattering/albedo_tables.h
+//   cmake --build build/release --target make_albedo_tables
+//   build/release/src/make_albedo_tables > albedo_tables.h && mv albedo_tables.h src/scattering/
 //
 // All of it is integrals over GGX by the midpoint rule: of normals drawn by visible normals, the albedo is
-// the mean of G2 / G1 of what they reflect and refract. src/scattering/ggx_albedo.h says what is fitted.
+// the mean of G2 / G1 of what they reflect and refract. ggx_albedo.h says what is fitted.
 
 #include <algorithm>
 #include <cmath>
@@ -249,8 +249,7 @@ int main() {
     std::snprintf(right, sizeof right, words, error);
     return std::string(right);
   };
-  std::printf(
-      "#pragma once\n// Written by script/scattering_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
+  std::printf("#pragma once\n// Written by make_albedo_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
   std::printf("namespace lambent::albedo_tables {\n\n// clang-format off\n");
   say("double", "E", E.coefficients, {E_x + 1, degree + 1},
       to("By powers of s, of the roughness: too much by 0 to %.4f.", 2 * E.error));
