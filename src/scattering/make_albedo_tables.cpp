@@ -1,11 +1,11 @@
-// Computes what src/scattering/albedo_tables.h holds, and says how well it fits. By hand, where a formula of
-// src/scattering has changed:
+// Computes what src/scattering/albedo_tables.h holds, and says how well it fits. By hand, where a formula
+// that it integrates has changed:
 //
-//   c++ -std=c++20 -O3 -march=native -ffast-math script/scattering_tables.cpp -o /tmp/scattering_tables
-//   /tmp/scattering_tables > src/scattering/albedo_tables.h
+//   cmake --build build/release --target make_albedo_tables
+//   build/release/src/make_albedo_tables > albedo_tables.h && mv albedo_tables.h src/scattering/
 //
 // All of it is integrals over GGX by the midpoint rule: of normals drawn by visible normals, the albedo is
-// the mean of G2 / G1 of what they reflect and refract. src/scattering/ggx_albedo.h says what is fitted.
+// the mean of G2 / G1 of what they reflect and refract. ggx_albedo.h says what is fitted.
 
 #include <algorithm>
 #include <cmath>
@@ -18,18 +18,19 @@ namespace {
 
 double root_of(double c, double alpha) { return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c); }
 
-/// Calls f(V.H, N.H) for n x n visible normals (Dupuy and Benyoub 2023), by half a turn.
+/// Calls f(V.H, N.H, weight) for n x n visible normals (Dupuy and Benyoub 2023), by half a turn. They lie
+/// denser where they lean far, as the tail of GGX is long.
 template <class Function> void for_visible_normals(double mu, double alpha, int n, const Function& f) {
   const double sine = std::sqrt(std::max(1 - mu * mu, 0.0)), length = std::hypot(alpha * sine, mu);
   const double across = alpha * sine / length, up = mu / length;
   for (int i = 0; i < n; ++i) {
     const double turn = std::cos(M_PI * (i + 0.5) / n);
     for (int j = 0; j < n; ++j) {
-      const double v = (j + 0.5) / n, below = v * (1 + up),
+      const double rest = (j + 0.5) / n, v = 1 - rest * rest * rest, below = v * (1 + up),
                    ring = std::sqrt(std::max(below * (2 - below), 0.0));
-      const double hx = alpha * (ring * turn + across), hz = (1 - v) * (1 + up);
+      const double hx = alpha * (ring * turn + across), hz = rest * rest * rest * (1 + up);
       const double over = 1 / std::sqrt(hx * hx + alpha * alpha * ring * ring * (1 - turn * turn) + hz * hz);
-      f(std::min(over * (hx * sine + hz * mu), 1.0), over * hz);
+      f(std::min(over * (hx * sine + hz * mu), 1.0), over * hz, 3 * rest * rest / n / n);
     }
   }
 }
@@ -46,26 +47,27 @@ struct Albedo {
 };
 Albedo mirror_albedo(double mu, double alpha, int n) {
   Albedo sum{};
-  for_visible_normals(mu, alpha, n, [&](double VH, double NH) {
+  for_visible_normals(mu, alpha, n, [&](double VH, double NH, double weight) {
     const double g = reflected(VH, NH, mu, alpha), x = 1 - VH, x2 = x * x;
-    sum.E += g, sum.B += g * x2 * x2 * x;
+    sum.E += weight * g, sum.B += weight * g * x2 * x2 * x;
   });
-  return {sum.E / n / n, sum.B / n / n};
+  return sum;
 }
 
 double glass_albedo(double mu, double alpha, double eta, int n) {
   double sum = 0;
   const double bend = 1 / eta;
-  for_visible_normals(mu, alpha, n, [&](double VH, double NH) {
+  for_visible_normals(mu, alpha, n, [&](double VH, double NH, double weight) {
     const double k = 1 - bend * bend * (1 - VH * VH), cosine = std::sqrt(std::max(k, 0.0)), g = cosine * eta;
     const double down = bend * mu - (bend * VH - cosine) * NH;  // of the refracted ray
     const double s = (VH - g) / (VH + g), p = (eta * eta * VH - g) / (eta * eta * VH + g);
     const double F = k <= 0 || down <= 0 ? 1 : (s * s + p * p) / 2;
-    sum += F * reflected(VH, NH, mu, alpha);
+    sum += weight * F * reflected(VH, NH, mu, alpha);
     if (F < 1)
-      sum += (1 - F) * std::min(1.0, down * (mu + root_of(mu, alpha)) / (mu * (down + root_of(down, alpha))));
+      sum += weight * (1 - F) *
+             std::min(1.0, down * (mu + root_of(mu, alpha)) / (mu * (down + root_of(down, alpha))));
   });
-  return sum / n / n;
+  return sum;
 }
 
 /// Least squares by Householder's reflections: the c with the least |w (A c - b)|. A is row by row.
@@ -158,7 +160,7 @@ void say(const char* type, const char* name, const std::vector<double>& values, 
     for (int i = 0; i < sizes[level]; ++i) {
       if (i) std::printf(level + 1 == sizes.size() ? ", " : ",\n");
       if (level + 1 < sizes.size()) block(level + 1);
-      else std::printf("%.9g", values[next++]);
+      else std::printf(std::string(type) == "float" ? "%.9g" : "%.17g", values[next++]);
     }
     std::printf("}");
   };
@@ -169,9 +171,9 @@ void say(const char* type, const char* name, const std::vector<double>& values, 
 }  // namespace
 
 int main() {
-  constexpr int steps = 64, E_x = 8, h_x = 6, degree = 6, average_degree = 10;
+  constexpr int steps = 64, E_x = 8, h_x = 6, degree = 6, average_degree = 12;
   // E by s = sqrt(mu / S) and the roughness.
-  std::vector<double> basis, values, ones;
+  std::vector<double> basis, values, stress;
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= steps; ++j) {
       const double s = double(i) / steps, r = double(j) / steps, alpha = std::pow(std::max(r, 0.01), 2);
@@ -180,9 +182,11 @@ int main() {
                        std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
       add_powers(basis, s, r, E_x, degree);
       values.push_back(i == 0 ? 1 : mirror_albedo(mu, alpha, 200).E);
-      ones.push_back(1);
+      // A smooth surface loses little, and at grazing angles only: what the fit loses elsewhere would be most
+      // of it.
+      stress.push_back(1 + 6 * std::pow(s, 12) * std::pow(1 - r, 4));
     }
-  Fit E = fit(basis, values, ones);
+  Fit E = fit(basis, values, stress);
   E.coefficients[0] += E.error;  // rather a little too much: then nothing is gained
 
   // h by the same, where B = E (1 - S h)^5. Errors count as they do in B.
@@ -190,7 +194,7 @@ int main() {
   basis.clear(), values.clear();
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= steps; ++j) {
-      const double mu = std::max(double(i) / steps, 1e-6), r = double(j) / steps,
+      const double mu = std::max(std::pow(double(i) / steps, 2), 1e-6), r = double(j) / steps,
                    alpha = std::pow(std::max(r, 0.01), 2), S = root_of(mu, alpha);
       const Albedo a = mirror_albedo(mu, alpha, 200);
       const double q = std::pow(a.B / a.E, 0.2);
@@ -221,10 +225,10 @@ int main() {
   }
   const Fit average_lost = fit(basis, lost, over), average_B = fit(basis, grazing, all);
 
-  // Glass: T = (1 - E_glass) / (1 - E) with E as it is fitted, so that 1 - T (1 - E) is right at the table's
-  // places: by sqrt(mu), the roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta - 1) / (eta + 1); from
-  // outside, from inside.
-  constexpr int nx = 13, nr = 8, nt = 16;
+  // Glass: T = (1 - E_glass) / (1 - E), by sqrt(mu), the roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta -
+  // 1) / (eta + 1); from outside, from inside. Where much is lost, E is as it is fitted, so that 1 - T (1 -
+  // E) is right.
+  constexpr int nx = 19, nr = 11, nt = 14;
   std::vector<double> glass;
   for (const bool outside : {true, false})
     for (int i = 0; i < nx; ++i)
@@ -235,8 +239,9 @@ int main() {
           const double t = 0.02 + 0.48 * std::pow(k / (nt - 1.0), 2), eta = (1 + t) / (1 - t);
           const double S = root_of(mu, alpha),
                        e = value_of(E.coefficients, std::sqrt(mu / S), std::sqrt(alpha), E_x, degree);
+          const double white = 1 - mirror_albedo(mu, alpha, 100).E;
           glass.push_back((1 - glass_albedo(mu, alpha, outside ? eta : 1 / eta, 100)) /
-                          std::max(1 - e, 0.001));
+                          (white > 0.08 ? 1 - e : white));
         }
 
   char right[100];
@@ -244,8 +249,7 @@ int main() {
     std::snprintf(right, sizeof right, words, error);
     return std::string(right);
   };
-  std::printf(
-      "#pragma once\n// Written by script/scattering_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
+  std::printf("#pragma once\n// Written by make_albedo_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
   std::printf("namespace lambent::albedo_tables {\n\n// clang-format off\n");
   say("double", "E", E.coefficients, {E_x + 1, degree + 1},
       to("By powers of s, of the roughness: too much by 0 to %.4f.", 2 * E.error));
