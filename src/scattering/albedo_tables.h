@@ -1,7 +1,11 @@
 #pragma once
 // Written by make_albedo_tables.cpp; do not edit. ggx_albedo.h reads it.
 
-namespace lambent::albedo_tables {
+#include "math/isa.h"
+
+namespace lambent {
+inline namespace LAMBENT_ISA {
+namespace albedo_tables {
 
 // clang-format off
 /// By powers of s, of the roughness: too much by 0 to 0.0057.
@@ -447,4 +451,6 @@ inline constexpr float glass[2][19][11][14] = {{{{0.935952125, 0.93955449, 0.947
 {0.129795486, 0.145071127, 0.195200557, 0.27414794, 0.37569845, 0.49352531, 0.619549071, 0.744201162, 0.849666736, 0.921105178, 0.967250468, 0.993561386, 1.00860356, 1.01372673}}}};
 // clang-format on
 
-}  // namespace lambent::albedo_tables
+}  // namespace albedo_tables
+}  // namespace LAMBENT_ISA
+}  // namespace lambent

@@ -250,7 +250,9 @@ int main() {
     return std::string(right);
   };
   std::printf("#pragma once\n// Written by make_albedo_tables.cpp; do not edit. ggx_albedo.h reads it.\n\n");
-  std::printf("namespace lambent::albedo_tables {\n\n// clang-format off\n");
+  std::printf(
+      "#include \"math/isa.h\"\n\nnamespace lambent {\ninline namespace LAMBENT_ISA {\nnamespace "
+      "albedo_tables {\n\n// clang-format off\n");
   say("double", "E", E.coefficients, {E_x + 1, degree + 1},
       to("By powers of s, of the roughness: too much by 0 to %.4f.", 2 * E.error));
   say("double", "h", h.coefficients, {h_x + 1, degree + 1}, to("Likewise; B is right to %.4f.", h.error));
@@ -261,7 +263,9 @@ int main() {
       to("<B> by powers of the roughness: right to %.4f.", average_B.error));
   say("float", "glass", glass, {2, nx, nr, nt},
       "From outside, from inside; by sqrt(N.V), the roughness, the index.");
-  std::printf("// clang-format on\n\n}  // namespace lambent::albedo_tables\n");
+  std::printf(
+      "// clang-format on\n\n}  // namespace albedo_tables\n}  // namespace LAMBENT_ISA\n}  // namespace "
+      "lambent\n");
   std::fprintf(stderr, "E %.5f  B %.5f  <lost> %.5f  <B> %.5f\n", E.error, h.error, average_lost.error,
                average_B.error);
 }

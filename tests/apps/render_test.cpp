@@ -76,7 +76,7 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto stats = nlohmann::json::parse(read_text(folder.file("s.json")));
   EXPECT_EQ(keys_of(stats),
-            (std::vector<std::string>{"bytes", "isa", "peak_memory_bytes", "rays", "samples_per_pixel",
+            (std::vector<std::string>{"bytes", "isa", "noise", "peak_memory_bytes", "rays", "samples_per_pixel",
                                       "scene", "seconds", "threads", "tree_quality", "version"}));
   EXPECT_EQ(keys_of(stats["rays"]),
             (std::vector<std::string>{"ambient", "eye", "eye_hits", "reflection", "refraction", "shadow"}));

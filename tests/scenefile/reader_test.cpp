@@ -240,7 +240,7 @@ TEST(ReaderMessages, Values) {
 
 TEST(ReaderMessages, Structure) {
   EXPECT_EQ(only(head + "integrator: {}\n"),
-            "'integrator' names none | it is one of: whitted, path, ambient_occlusion, view");
+            "'integrator' names none | it is one of: whitted, spectral, path, ambient_occlusion, view");
   EXPECT_EQ(only(head + "lights: {}\n"), "'lights' must be a list, not a mapping | ");
   EXPECT_EQ(only(head + "lights: [{name: a}]\n"),
             "this light has no kind | it is one of: " + join(names_of(format().lights)));
@@ -257,9 +257,9 @@ TEST(ReaderMessages, Structure) {
       "'v' lies along 'u': the light has no area | they are the light's sides; of a rectangle they are at a "
       "right angle");
   EXPECT_EQ(only(head + "lights: [{disc: {center: [0, 1, 0], normal: [0, 1, 0], radius: 0}}]\n"),
-            "'radius' is 0 | it is at least 1e-10 scene units");
+            "'radius' is 0, but must be positive | ");
   EXPECT_EQ(only(head + "lights: [{sphere: {center: [0, 1, 0], radius: 1, samples: 0}}]\n"),
-            "'samples' is 0 | it lies between 1 and 1024");
+            "'samples' is 0, but must be 1 to 1024 | ");
   EXPECT_EQ(only(head + "lights: [{name: far, sphere: {center: [0, 1e10, 0], radius: 1}}]\n"),
             "'far' reaches beyond 1e10 scene units from the origin | choose a larger unit of length: scale "
             "the scene "
