@@ -139,8 +139,12 @@ void note_vertex_colors(const Scene& scene, std::vector<MaterialRecord>& records
 void add_light_materials(const Scene& scene, const Pass* pass, const std::vector<StandingLight>& lights,
                          PreparedFrame::Colored& colored) {
   for (const StandingLight& light : lights) {
-    MaterialRecord record =
-        unpainted(scene, pass ? material_in_pass(scene, *pass, light.material) : light.material);
+    MaterialRecord record = unpainted(scene, light.material);
+    if (pass)  // its colour may be a spectrum
+      record.emission = with_light(colored.lights[light.light], []<class L>(const L& one) -> Rgb {
+        if constexpr (HasExtent<L>) return radiance(one);
+        else return {};  // which does not stand in the world
+      });
     record.light = int(light.light);
     record.dark_inside = !light.two_sided;
     colored.unpainted.push_back(record);

@@ -18,7 +18,8 @@ void put_in_pass(const Scene& scene, const Pass& pass, const std::map<std::strin
     const auto* member = std::get_if<Rgb S::*>(&parameter.member);
     if (!member) continue;
     const auto given = spectra.find(parameter.name);
-    of.** member = given == spectra.end() ? in_pass(pass, of.**member) : in_pass(scene, pass, given->second);
+    Rgb& color = of.*(*member);
+    color = given == spectra.end() ? in_pass(pass, color) : in_pass(scene, pass, given->second);
   }
 }
 

@@ -9,7 +9,7 @@
 // Glass loses the share T of what E loses, a table by N.V, the roughness and eta: E_glass = 1 - T (1 - E).
 //
 // E is too much by 0 to 0.006, so that what makes up for the rest is too little: nothing is gained, and less
-// than 1 % lost. E_glass is right to 1 % for indices from 1.2 on, at worst near the critical angle
+// than 1 % lost. E_glass is right to 1.1 % for indices from 1.2 on, at worst near the critical angle
 // (tests/scattering).
 
 #include <type_traits>

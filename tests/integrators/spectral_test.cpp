@@ -269,6 +269,24 @@ TEST(Spectral, LayersAddUpAndWavelengthsToo) {
   }
 }
 
+TEST(Spectral, ALampThatIsSeenShinesInItsOwnSpectrum) {
+  // A ball of radius 1 has the radiance Il. At 1500 K its light lies outside of sRGB: less than no blue.
+  const Image image = picture(R"(
+lambent: 1
+camera: {eye: [0, 0, 5], target: [0, 0, 0], fov: 1}
+image: {size: [1, 1]}
+integrator: {spectral: {wavelengths: 36}}
+lights: [{sphere: {center: [0, 0, 0], radius: 1, color: {blackbody: 1500}}}]
+)");
+  const RelativeLight body{Blackbody{1500}};
+  const WavelengthSet set = wavelength_set(even_wavelengths(36));
+  Rgb expected{};
+  for (std::size_t i = 0; i < set.wavelengths.size(); ++i)
+    expected = expected + body.at(set.wavelengths[i]) * set.weights[i];
+  EXPECT_LT(expected[2], 0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.pixel(0, 0)[c], expected[c], 1e-6);
+}
+
 TEST(Spectral, AdaptiveSamplesAreTakenAsOfAnyPicture) {
   std::string scene = colourful("glass: sf11");
   scene.replace(scene.find("samples: 3"), 10, "samples: {adaptive: {start: 4, max: 16}}");
