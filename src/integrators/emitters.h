@@ -252,11 +252,12 @@ inline double density_by_area(const Frame& frame, const HitIds<std::int32_t>& id
          abs(determinant(instance->world_from_object));
 }
 
-/// Whether directions towards it are chosen in its cone, as seen from outside of it.
+/// Whether directions towards it are chosen in its cone, as seen from outside of it. A point on the sphere
+/// itself counts as inside, whichever way it was rounded (surface.h).
 inline bool is_ball(const Geometry& g, const HitIds<std::int32_t>& ids, const Vec3<double>& P) {
   if (g.kind != PrimitiveKind::sphere || ids.instance >= 0) return false;
   const Sphere& s = g.spheres[ids.primitive];
-  return length(P - s.center) > s.radius;
+  return length(P - s.center) > s.radius + 0x1p-48 * (max_abs(P) + max_abs(s.center) + s.radius);
 }
 
 /// The radiance that the surface sends from Q against d.

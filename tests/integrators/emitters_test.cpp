@@ -150,6 +150,22 @@ TEST(Emitters, SurfacesThatShineAreLights) {
       {10, 20, 5}, {0, 1, 0}, M_PI * 2);
 }
 
+TEST(Emitters, APointOnASphereThatShinesSeesItsInside) {
+  const Prepared p("objects: [{sphere: {center: [0.1, 0.2, 0.3], radius: 1.7}, material: {emission: 2}}]\n");
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 200; ++i) {
+    const V n = normalize(V{normal(random), normal(random), normal(random)});
+    const V P = V{0.1, 0.2, 0.3} + 1.7 * n;
+    // The point opposite is 2 R away, and no point has the radiance of a ball that is seen from outside.
+    const EmitterSample s = sample_emitters(*p, P, -n, 0.5, 0.37, 0.61);
+    EXPECT_NEAR(length(P + s.r * s.L - V{0.1, 0.2, 0.3}), 1.7, 1e-12);
+    EXPECT_GT(s.r, 0.01);
+    // All of the sphere counts alike: r^2 / (A cos) with cos = r / (2 R).
+    EXPECT_NEAR(s.density, 2 * 1.7 * s.r / (4 * M_PI * 1.7 * 1.7), 1e-9 * s.density);
+  }
+}
+
 TEST(Emitters, ABackgroundOfOneColourGivesPiTimesIt) {
   const Prepared p("background: [0.5, 0.7, 0.9]\n");
   expect_irradiance(p, {0, 0, 0}, {0.6, 0.8, 0}, M_PI * 0.5);
