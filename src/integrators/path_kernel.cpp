@@ -317,7 +317,7 @@ template <bool Seen> struct Work : Wavefront {
     F share(1);
     if (any(lit)) {
       const Vec3<F> start = select(dot(to_light, hits.G) > F(0), hits.front, hits.back);
-      open = shadows(start, to_light, number_cast<float>(F::load(clear)), lit, share);
+      open = shadows(shadow_rays(start, hits.P, to_light, F::load(clear)), lit, share);
       light = share * light;
     }
     for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
@@ -353,9 +353,8 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   /// Which lanes the light reaches that was looked for. What is not wholly opaque leaves a part of it.
-  [[gnu::noinline]] std::uint32_t shadows(const Vec3<F>& start, const Vec3<F>& L, const Query& t_far,
-                                          const Truth& lit, F& share) {
-    const QueryRay<Query> rays(number_cast<float>(start), number_cast<float>(L));
+  [[gnu::noinline]] std::uint32_t shadows(const ShadowRays& shadow, const Truth& lit, F& share) {
+    const auto& [rays, t_far] = shadow;
     const std::uint32_t asked = lane_bits(lit);
     counts.shadow += std::uint64_t(__builtin_popcount(asked));
     if (frame.listener) tell(rays, asked, t_far);

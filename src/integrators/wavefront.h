@@ -556,16 +556,14 @@ struct Wavefront {
     QueryRay<Query> rays;
     Query t_far;
   };
-  /// From `start`, off the surface, towards the light of P. To a light with extent the ray ends where the
-  /// light says, at P + clear L, though it starts beside P: lifted, it would otherwise go through the light.
-  static ShadowRays shadow_rays(const Vec3<F>& start, const Vec3<F>& P, const LightSample<F, C>& light,
-                                bool extended) {
-    if (!extended)
-      return {{number_cast<float>(start), number_cast<float>(light.L)}, number_cast<float>(light.r)};
-    const Vec3<F> way = P + light.clear * light.L - start;
+  /// From `start`, off the surface, to the end of the way that must be clear, P + clear L. Rays start beside
+  /// P: along L one that is lifted would go that much too far, into a light with extent.
+  static ShadowRays shadow_rays(const Vec3<F>& start, const Vec3<F>& P, const Vec3<F>& L, const F& clear) {
+    const Truth finite = clear < F(__builtin_inf());
+    const Vec3<F> way = P + select(finite, clear, F(0)) * L - start;
     const F r = length(way);
-    const Vec3<F> d = select(r > F(0), (F(1) / r) * way, light.L);
-    return {{number_cast<float>(start), number_cast<float>(d)}, number_cast<float>(r)};
+    const Vec3<F> d = select(both(finite, r > F(0)), (F(1) / r) * way, L);
+    return {{number_cast<float>(start), number_cast<float>(d)}, number_cast<float>(select(finite, r, clear))};
   }
 
   bool all_opaque() const {

@@ -205,6 +205,11 @@ template <bool Seen> struct Work : Wavefront {
     return result;
   }
 
+  static ShadowRays shadow_of(const Hits& hits, const LightSample<F, C>& light, const LightPoint& point) {
+    if (point.extended) return shadow_rays(hits.front, hits.P, light.L, light.clear);
+    return {{number_cast<float>(hits.front), number_cast<float>(light.L)}, number_cast<float>(light.r)};
+  }
+
   /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
   /// surface (N.L <= 0) or dark in this direction.
   LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
@@ -220,7 +225,7 @@ template <bool Seen> struct Work : Wavefront {
       const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
       open_bits[i] = lane_bits(lit);
       if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
-      const ShadowRays shadow = shadow_rays(hits.front, hits.P, light, point.extended);
+      const ShadowRays shadow = shadow_of(hits, light, point);
       rays[asked] = shadow.rays;
       t_far[asked] = shadow.t_far;
       open[asked] = mask_cast<std::int32_t>(lit);
@@ -288,7 +293,7 @@ template <bool Seen> struct Work : Wavefront {
                       const LightPoint& point) const {
     const C passes = grey(gather<F>([&](int k) { return open >> k & 1 ? 1.0 : 0.0; }));
     if (all_opaque() || !frame.whitted.shadows) return passes;
-    return passes * transmittance(open, shadow_rays(hits.front, hits.P, light, point.extended));
+    return passes * transmittance(open, shadow_of(hits, light, point));
   }
 
   /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
@@ -465,7 +470,7 @@ template <bool Seen> struct Work : Wavefront {
     const LightPoint& point = frame.light_points[p];
     const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
     const auto light = sample_point(point, hits.P);
-    const ShadowRays shadow = shadow_rays(hits.front, hits.P, light, point.extended);
+    const ShadowRays shadow = shadow_of(hits, light, point);
     const F faded = attenuate(attenuation, light.r, F(frame.minimum_distance));
     const C share = share_that_passes(open, hits, light, point), arriving = share * (faded * light.I);
     const std::uint32_t asked =

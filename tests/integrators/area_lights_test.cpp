@@ -122,7 +122,7 @@ TEST(AreaLight, DoesNotStandInItsOwnLight) {
                              "sphere: {center: [C, 1.8, 0], radius: 0.8"}) {
       std::string light = kind;
       light.replace(light.find('C'), 1, std::to_string(far));
-      const auto picture = [&](bool visible) {
+      const auto picture = [&](const char* integrator, bool visible) {
         std::string mesh = "mesh: {vertices: [";
         std::string triangles, normals;
         for (int i = 0; i <= 4; ++i)
@@ -143,23 +143,28 @@ TEST(AreaLight, DoesNotStandInItsOwnLight) {
         mesh += "], normals: [" + normals + "], triangles: [" + triangles + "]}";
         const std::string x = std::to_string(far);
         return render(parse_scene("lambent: 1\ncamera: {eye: [" + x + ", 0.8, 4], target: [" + x +
-                                  ", -0.2, 0], fov: 30}\nimage: {size: [60, 30]}\nillumination: {model: "
+                                  ", -0.2, 0], fov: 30}\nimage: {size: [60, 30], samples: 1}\nintegrator: " +
+                                  integrator +
+                                  "\nillumination: {model: "
                                   "attenuated, ambient: 0}\n"
                                   "lights: [{" +
                                   light + ", samples: 16, visible: " + (visible ? "true" : "false") +
                                   "}}]\nobjects:\n  - {" + mesh + ", material: {diffuse: 1, ambient: 0}}\n"))
             .image;
       };
-      const Image with = picture(true), without = picture(false);
-      int lit = 0;
-      for (int y = 0; y < 30; ++y)
-        for (int i = 0; i < 60; ++i) {
-          if (with.pixel(i, y)[0] > 1) continue;  // the light itself
-          EXPECT_NEAR(with.pixel(i, y)[0], without.pixel(i, y)[0], 1e-6)
-              << kind << " at " << far << ": " << i << "," << y;
-          lit += without.pixel(i, y)[0] > 0.01;
-        }
-      EXPECT_GT(lit, 100);
+      // Paths of one ray take the same points of the light, seen or not.
+      for (const char* integrator : {"{whitted: {}}", "{path: {max_depth: 1}}"}) {
+        const Image with = picture(integrator, true), without = picture(integrator, false);
+        int lit = 0;
+        for (int y = 0; y < 30; ++y)
+          for (int i = 0; i < 60; ++i) {
+            if (with.pixel(i, y)[0] > 1) continue;  // the light itself
+            EXPECT_NEAR(with.pixel(i, y)[0], without.pixel(i, y)[0], 1e-6)
+                << integrator << " " << kind << " at " << far << ": " << i << "," << y;
+            lit += without.pixel(i, y)[0] > 0.01;
+          }
+        EXPECT_GT(lit, 100);
+      }
     }
 }
 
