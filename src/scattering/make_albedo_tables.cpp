@@ -70,6 +70,14 @@ double glass_albedo(double mu, double alpha, double eta, int n) {
   return sum;
 }
 
+/// The cosine at a place of the table's first axis: place_of_glass() of ggx_albedo.h the other way round.
+double cosine_of_place(double x, double t, bool outside) {
+  if (outside) return x * x;
+  const double below = 0.7, critical = 2 * std::sqrt(t) / (1 + t), q = x / below;
+  if (x >= below) return critical + (1 - critical) * (x - below) / (1 - below);
+  return critical * (q < 0.5 ? 2 * q * q : 1 - 2 * (1 - q) * (1 - q));
+}
+
 /// Least squares by Householder's reflections: the c with the least |w (A c - b)|. A is row by row.
 std::vector<double> least_squares(std::vector<double> A, std::vector<double> b,
                                   const std::vector<double>& w) {
@@ -160,7 +168,7 @@ void say(const char* type, const char* name, const std::vector<double>& values, 
     for (int i = 0; i < sizes[level]; ++i) {
       if (i) std::printf(level + 1 == sizes.size() ? ", " : ",\n");
       if (level + 1 < sizes.size()) block(level + 1);
-      else std::printf(std::string(type) == "float" ? "%.9g" : "%.17g", values[next++]);
+      else std::printf(std::string(type) == "float" ? "%.6g" : "%.17g", values[next++]);
     }
     std::printf("}");
   };
@@ -225,23 +233,21 @@ int main() {
   }
   const Fit average_lost = fit(basis, lost, over), average_B = fit(basis, grazing, all);
 
-  // Glass: T = (1 - E_glass) / (1 - E), by sqrt(mu), the roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta -
-  // 1) / (eta + 1); from outside, from inside. Where much is lost, E is as it is fitted, so that 1 - T (1 -
-  // E) is right.
-  constexpr int nx = 19, nr = 11, nt = 14;
+  // Glass: T = (1 - E_glass) / (1 - E + 0.06 alpha), E as it is fitted, by place_of_glass() of mu, the
+  // roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta - 1) / (eta + 1); from outside, from inside.
+  constexpr int nx = 31, nr = 15, nt = 20;
   std::vector<double> glass;
   for (const bool outside : {true, false})
     for (int i = 0; i < nx; ++i)
       for (int j = 0; j < nr; ++j)
         for (int k = 0; k < nt; ++k) {
-          const double mu = std::max(std::pow(i / (nx - 1.0), 2), 1e-3),
-                       alpha = std::pow(std::max(j / (nr - 1.0), 0.1), 2);
           const double t = 0.02 + 0.48 * std::pow(k / (nt - 1.0), 2), eta = (1 + t) / (1 - t);
-          const double S = root_of(mu, alpha),
-                       e = value_of(E.coefficients, std::sqrt(mu / S), std::sqrt(alpha), E_x, degree);
-          const double white = 1 - mirror_albedo(mu, alpha, 100).E;
+          const double mu = std::max(cosine_of_place(i / (nx - 1.0), t, outside), 1e-4),
+                       roughness = std::max(j / (nr - 1.0), 0.1), alpha = roughness * roughness;
+          const double e =
+              value_of(E.coefficients, std::sqrt(mu / root_of(mu, alpha)), roughness, E_x, degree);
           glass.push_back((1 - glass_albedo(mu, alpha, outside ? eta : 1 / eta, 100)) /
-                          (white > 0.08 ? 1 - e : white));
+                          (1 - std::min(e, 1.0) + 0.06 * alpha));
         }
 
   char right[100];
@@ -262,7 +268,7 @@ int main() {
   say("double", "average_B", average_B.coefficients, {average_degree + 1},
       to("<B> by powers of the roughness: right to %.4f.", average_B.error));
   say("float", "glass", glass, {2, nx, nr, nt},
-      "From outside, from inside; by sqrt(N.V), the roughness, the index.");
+      "From outside, from inside; by place_of_glass() of N.V, the roughness, the index.");
   std::printf(
       "// clang-format on\n\n}  // namespace albedo_tables\n}  // namespace LAMBENT_ISA\n}  // namespace "
       "lambent\n");

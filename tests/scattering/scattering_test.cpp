@@ -180,6 +180,19 @@ TEST(Scattering, KeepsAllEnergyAndGainsNone) {
   });
 }
 
+// From inside, where a smooth surface begins to reflect all: the steepest place of the table of glass.
+TEST(Scattering, RoughGlassKeepsItsEnergyAboutTheCriticalAngle) {
+  for (const double ior : {1.08, 1.15, 1.33, 1.9})
+    for (const double roughness : {0.15, 0.3, 0.4, 0.6, 0.9})
+      for (const double aside : {-0.15, -0.07, -0.03, 0.0, 0.03, 0.07, 0.15}) {
+        Point s = level(std::clamp(std::sqrt(1 - 1 / (ior * ior)) + aside, 0.01, 1.0));
+        s.ior = ior, s.outside = false, s.roughness = roughness;
+        const double share = furnace<ScatterKind::glass>(s, 4000)[0], noise = 0.002;
+        EXPECT_GT(share, 0.99 - noise) << ior << ", roughness " << roughness << ", aside " << aside;
+        EXPECT_LT(share, 1.003 + noise) << ior << ", roughness " << roughness << ", aside " << aside;
+      }
+}
+
 TEST(Scattering, TheLectureGainsNothing) {
   for_each_kind([](auto kind) {
     if (kind() != ScatterKind::lecture_phong && kind() != ScatterKind::lecture_blinn) return;
