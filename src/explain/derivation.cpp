@@ -82,7 +82,17 @@ class Notes {
                               g.object_of_primitive[seen.primitive - ray.primitive - 1] == ray.object;)
         ++ray.primitive;
     ray.lights.resize(std::size_t(frame_.light_point_count));
-    for (std::size_t p = 0; p < ray.lights.size(); ++p) ray.lights[p].point = frame_.light_points[p];
+    for (std::size_t p = 0; p < ray.lights.size(); ++p) {
+      const LightPoint& point = frame_.light_points[p];
+      DerivedLight& light = ray.lights[p];
+      light.point = point;
+      light.number =
+          p > 0 && ray.lights[p - 1].point.source == point.source ? ray.lights[p - 1].number + 1 : 0;
+      with_light(frame_.lights[point.light], [&](const auto& one) {
+        light.kind = std::decay_t<decltype(one)>::info.name;
+        light.Il = point.share * brightest<double>(one);
+      });
+    }
   }
   void light(const SeenLight& seen) {
     DerivedRay& ray = to_.rays[first_ray_ + seen.ray];

@@ -60,9 +60,7 @@ LightFormulas light_formulas(const Derivation& derivation, const DerivedRay& ray
   }
   Formulas formulas;
   const auto s = surface_symbols(derivation, ray);
-  const Rgb Il =
-      derived.point.share * with_light(derivation.scene->lights[std::size_t(derived.point.light)].light,
-                                       [](const auto& one) { return brightest<double>(one); });
+  const Rgb& Il = derived.Il;
   const Arriving<Traced, Color<Traced>> arriving{vector_symbol("L", light.L),
                                                  color_symbol("I", light.arriving), color_symbol("Il", Il),
                                                  Traced::symbol("fade", light.faded * share_of(light.I, Il))};

@@ -205,12 +205,13 @@ class Telling {
   }
 
   Json light(const DerivedRay& ray, const DerivedLight& light) const {
-    const Light& which = scene_.lights[std::size_t(light.point.light)];
+    const std::size_t source = std::size_t(light.point.source);
+    const bool is_given = source < scene_.lights.size();
     Json result;
-    result["light"] = which.name;
-    result["kind"] =
-        with_light(which.light, [](const auto& one) { return std::decay_t<decltype(one)>::info.name; });
-    result["place"] = json(which.place);
+    result["light"] = is_given ? scene_.lights[source].name : source_name(d_, int(source));
+    result["kind"] = light.kind;
+    result["place"] = json(is_given ? scene_.lights[source].place : Place{});
+    if (!is_given) result["stands_for_it"] = light.number;
     if (light.point.extended) {
       result["point"] = {light.point.u, light.point.v};
       result["counts"] = light.point.share;

@@ -302,8 +302,10 @@ class Telling {
   static bool shines(const DerivedLight& light) { return !is_black(light.seen.arriving); }
 
   void tell_light(const DerivedRay& ray, const DerivedLight& light) {
-    const Light& which = scene_.lights[std::size_t(light.point.light)];
-    std::string name = fmt::format("Light {}{}", which.name, place_of(which.place));
+    std::string name = "Light " + source_name(d_, light.point.source);
+    if (std::size_t(light.point.source) >= scene_.lights.size())
+      name = fmt::format("Of {}, light {}, {} {}", source_name(d_, light.point.source), light.number + 1,
+                         std::string_view(light.kind) == "directional" ? "a" : "as a", light.kind);
     if (light.point.share < 1)
       name += fmt::format(", at u {}, v {}, which counts 1/{}", short_number(light.point.u),
                           short_number(light.point.v), std::lround(1 / light.point.share));

@@ -170,15 +170,11 @@ std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light
   if (plan.fog && term == plan.fog_layer()) return name + "fog";
   const int light = (term - LayerPlan::first_light) / 2;
   const int count = int(lights.size());
-  if (plan.lights == path_source_count(count)) {
-    const std::string source = light == surfaces_source(count) ? "surfaces"
-                               : light == background_source(count)
-                                   ? "sky"
-                                   : "light." + layer_part(lights[std::size_t(light)].name);
-    return source + (term == LayerPlan::direct(light) ? ".direct" : ".indirect");
-  }
-  return name + "light." + layer_part(lights[std::size_t(light)].name) +
-         (term == LayerPlan::diffuse(light) ? ".diffuse" : ".specular");
+  name += light == surfaces_source(count)     ? "surfaces"
+          : light == background_source(count) ? "sky"
+                                              : "light." + layer_part(lights[std::size_t(light)].name);
+  if (plan.paths) return name + (term == LayerPlan::direct(light) ? ".direct" : ".indirect");
+  return name + (term == LayerPlan::diffuse(light) ? ".diffuse" : ".specular");
 }
 
 std::vector<std::string> object_names(const Scene& scene) {

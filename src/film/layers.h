@@ -14,19 +14,19 @@ namespace lambent {
 
 enum class Way : std::uint8_t { direct, reflection, refraction };
 
-/// Paths tell apart what shines (the scene's lights, then the surfaces that shine, then the background) and
-/// whether its light came to the surface that the eye sees directly or by way of others. In place of a
-/// light's two terms they have these two layers, all by the direct way; `emission` and `background` are what
-/// the eye sees shine.
+/// What shines beside the scene's lights comes after them: the surfaces that shine, then the background.
 constexpr int surfaces_source(int lights) { return lights; }
 constexpr int background_source(int lights) { return lights + 1; }
-constexpr int path_source_count(int lights) { return lights + 2; }
 
 /// How layers are numbered.
 struct LayerPlan {
   enum : int { ambient, emission, background, first_light };
 
-  int lights = 0;
+  int lights = 0;  ///< And what else lights the scene.
+  /// Paths tell apart whether a light's light came to the surface that the eye sees directly or by way of
+  /// others. In place of its two terms they have these two layers, all by the direct way; `emission` and
+  /// `background` are what the eye sees shine.
+  bool paths = false;
   bool reflection = false, refraction = false;  ///< Whether anything may come on these ways.
   bool fog = false;
   int wavelengths = 0;                          ///< Of a picture that is made of them: each is kept, too.

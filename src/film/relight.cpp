@@ -21,7 +21,7 @@ constexpr int channels = 3;
 /// What a layer's name says.
 struct Layer {
   std::string way;    ///< "", "reflection", "refraction".
-  std::string light;  ///< Or empty.
+  std::string light;  ///< Or `surfaces`, `sky`; or empty.
   std::string term;
   std::size_t first_channel = 0;
 };
@@ -31,11 +31,14 @@ Layer parse(const std::string& name) {
   std::string rest = name;
   for (const char* way : {"reflection", "refraction"})
     if (rest.starts_with(std::string(way) + ".")) layer.way = way, rest.erase(0, layer.way.size() + 1);
-  if (rest.starts_with("light.")) {
-    const std::size_t dot = rest.rfind('.');
-    layer.light = rest.substr(6, dot - 6);
-    rest.erase(0, dot + 1);
-  }
+  const std::string light = "light.";
+  for (const std::string& source : {light, std::string("surfaces."), std::string("sky.")})
+    if (rest.starts_with(source)) {
+      const std::size_t first = source == light ? light.size() : 0, dot = rest.rfind('.');
+      layer.light = rest.substr(first, dot - first);
+      rest.erase(0, dot + 1);
+      break;
+    }
   layer.term = rest;
   return layer;
 }

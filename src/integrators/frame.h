@@ -203,10 +203,12 @@ struct Witness {
 
 /// A point of a light, as the lecture's sum over lights sees it: lights without extent have one.
 struct LightPoint {
-  std::int32_t light;  ///< Index into Frame::lights.
-  double u, v;         ///< Which of its points.
-  double share;        ///< How much it counts: 1 / how many there are.
-  bool extended;       ///< Whether the light has extent.
+  std::int32_t light;   ///< Index into Frame::lights.
+  std::int32_t source;  ///< What it belongs to (film/layers.h): one of the scene's lights, the same number;
+                        ///< or what it stands for: surfaces that shine, or the background.
+  double u, v;    ///< Which of its points.
+  double share;   ///< How much it counts: 1 / how many there are.
+  bool extended;  ///< Whether the light has extent.
 };
 
 struct EmitterTable;
@@ -258,10 +260,10 @@ struct Frame {
   const Vec2<double>* pattern;  ///< Where a pixel's `samples` lie, from its upper left corner.
   int samples;
   const int* order =
-      nullptr;  ///< Null: they are taken as they come. Otherwise in this order (film/shutter.h).
-  const AnyLight* lights;
-  int light_count;
-  const LightPoint* light_points;  ///< Light by light.
+      nullptr;             ///< Null: they are taken as they come. Otherwise in this order (film/shutter.h).
+  const AnyLight* lights;  ///< The scene's, then those that stand for what else shines.
+  int light_count;         ///< The scene's.
+  const LightPoint* light_points;  ///< Source by source.
   int light_point_count;
   bool lights_have_limits = false;  ///< Whether there are some that do not reach everywhere.
   const MaterialRecord* materials;

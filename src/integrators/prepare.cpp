@@ -6,6 +6,8 @@
 #include "film/pattern.h"
 #include "illumination/fresnel.h"
 #include "integrators/ambient_occlusion.h"
+#include "integrators/emission_lights.h"
+#include "integrators/light_pattern.h"
 #include "integrators/spectral.h"
 #include "scattering/surface.h"
 #include "scene/uniform_material.h"
@@ -62,8 +64,8 @@ MaterialRecord unpainted(const Scene& scene, const Material& material) {
     record.ior = 1;  // thin, as KHR_materials_transmission has it
   }
   if (material.substance) {
-    record.scatter = int(std::holds_alternative<Metal>(*material.substance) ? ScatterKind::metal
-                                                                            : ScatterKind::glass);
+    record.scatter =
+        int(std::holds_alternative<Metal>(*material.substance) ? ScatterKind::metal : ScatterKind::glass);
     record.roughness = material.roughness;
   }
   record.unlit =
@@ -182,29 +184,56 @@ void color(const Scene& scene, const Pass* pass, const PreparedFrame& prepared, 
   }
 }
 
+/// Whether lights stand for surfaces and background that shine. Paths find these by themselves.
+bool traces_whitted(const Scene& scene) {
+  return scene.integrator == Integrator::whitted || scene.integrator == Integrator::spectral ||
+         scene.integrator == Integrator::view;
+}
+bool takes_surfaces(const Scene& scene) {
+  return traces_whitted(scene) && scene.whitted.emission_samples > 0;
+}
+bool takes_background(const Scene& scene) {
+  return traces_whitted(scene) && scene.whitted.background_samples > 0;
+}
+
 std::uint64_t primitive_count(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Shape& shape : scene.shapes) count += primitive_count(shape);
   return count;
 }
 
-}  // namespace
-
-Vec2<double> point_of_light(int number, int count) {
-  const int side = int(std::lround(std::sqrt(double(count))));
-  int row = 0;
-  if (side * side == count) {
-    row = number % side * side + (side - 1 - number / side);
-  } else {
-    // The rows in the order of the fractional parts of 1/2 + i / golden ratio, i counted from the middle.
-    const auto place = [count](int i) {
-      const double at = 0.5 + (i - 0.5 * (count - 1)) * 0.6180339887498949;
-      return at - std::floor(at);
-    };
-    for (int i = 0; i < count; ++i) row += place(i) < place(number);
-  }
-  return {(number + 0.5) / count, (row + 0.5) / count};
+/// What tells light apart in the layers: the scene's lights, and what else shines, if anybody asks.
+int source_count(const Scene& scene, int lights) {
+  if (scene.integrator == Integrator::path || takes_background(scene)) return background_source(lights) + 1;
+  return takes_surfaces(scene) ? surfaces_source(lights) + 1 : lights;
 }
+
+/// The points that the lecture's sum over lights takes: of the scene's lights, then of those that stand for
+/// surfaces and background. The frame is complete but for them.
+void set_light_points(const Scene& scene, const World& world, Frame& frame, PreparedFrame::Colored& colored) {
+  for (int l = 0; l < frame.light_count; ++l)
+    with_light(colored.lights[std::size_t(l)], [&]<class L>(const L& light) {
+      const int count = samples_of(light);
+      for (int i = 0; i < count; ++i) {
+        const Vec2<double> at = point_of_light(i, count);
+        colored.light_points.push_back({l, l, at.x, at.y, 1.0 / count, HasExtent<L>});
+      }
+    });
+  const auto add = [&](const EmissionLights& more) {
+    for (LightPoint point : more.points) {
+      point.light += int(colored.lights.size());
+      colored.light_points.push_back(point);
+    }
+    colored.lights.insert(colored.lights.end(), more.lights.begin(), more.lights.end());
+  };
+  if (takes_surfaces(scene)) add(lights_of_surfaces(frame, world, scene.whitted.emission_samples));
+  if (takes_background(scene)) add(lights_of_background(frame, scene.whitted.background_samples));
+  frame.lights = colored.lights.data();
+  frame.light_points = colored.light_points.data();
+  frame.light_point_count = int(colored.light_points.size());
+}
+
+}  // namespace
 
 TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples) {
   // Measured in seconds of one thread: a thorough tree costs 0.6 us more for each primitive. For each sample
@@ -269,16 +298,6 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
     for (const Material& material : scene.materials) prepared->white.push_back(whitened(material));
   color(scene, nullptr, *prepared, frame, prepared->colored);
   frame.light_count = int(prepared->colored.lights.size());
-  for (int l = 0; l < frame.light_count; ++l)
-    with_light(frame.lights[l], [&]<class L>(const L& light) {
-      const int count = samples_of(light);
-      for (int i = 0; i < count; ++i) {
-        const Vec2<double> at = point_of_light(i, count);
-        prepared->light_points.push_back({l, at.x, at.y, 1.0 / count, HasExtent<L>});
-      }
-    });
-  frame.light_points = prepared->light_points.data();
-  frame.light_point_count = int(prepared->light_points.size());
   for (const AnyLight& light : prepared->colored.lights)
     frame.lights_have_limits |= with_light(light, [](const auto& one) { return has_limits(one); });
   for (const MaterialRecord& record : prepared->colored.unpainted) {
@@ -304,9 +323,10 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   frame.layers.fog = frame.fog.density > 0;
   frame.whitted = scene.whitted;
   if (is_white) frame.whitted.max_depth = 1;
-  frame.layers.lights = frame.light_count;
-  if (scene.integrator == Integrator::path) {
-    frame.layers.lights = path_source_count(frame.light_count);
+  frame.layers.lights = source_count(scene, frame.light_count);
+  frame.layers.paths = scene.integrator == Integrator::path;
+  if (frame.layers.paths) {
+    // All their layers are by the direct way.
   } else if (frame.whitted.max_depth > 1)
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
@@ -321,6 +341,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
                            ambient_attenuation_of(illumination, ModelId(model))};
   if (illumination.occlusion) frame.occlusion = *illumination.occlusion;
   frame.minimum_distance = illumination.minimum_distance;
+  set_light_points(scene, prepared->world, frame, prepared->colored);
   if (scene.integrator == Integrator::path) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;
@@ -337,6 +358,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
       Frame& of_pass = prepared->pass_frames[p];
       color(scene, &prepared->passes[p], *prepared, of_pass, prepared->pass_colored[p]);
       of_pass.pass = &prepared->passes[p];
+      set_light_points(scene, prepared->world, of_pass, prepared->pass_colored[p]);
       prepared->passes[p].frame = &of_pass;
     }
     frame.passes = prepared->passes.data();

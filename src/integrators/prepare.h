@@ -12,6 +12,7 @@ struct PreparedFrame {
   /// What of a frame has colours.
   struct Colored {
     std::vector<AnyLight> lights;
+    std::vector<LightPoint> light_points;
     std::vector<MaterialRecord> materials, unpainted;
   };
   Frame frame;
@@ -20,7 +21,6 @@ struct PreparedFrame {
   std::vector<Vec2<double>> pattern;
   Shutter shutter;  ///< Where something moves; otherwise without slices.
   Colored colored;
-  std::vector<LightPoint> light_points;
   Illumination illumination;    ///< The scene's, or what the integrator puts in its place.
   std::vector<Material> white;  ///< What it puts in the place of the scene's materials; or empty.
   std::vector<TextureRecord> textures;
@@ -58,12 +58,6 @@ class Exposure {
   int slice_ = 0;
   std::unique_ptr<PreparedFrame> prepared_;
 };
-
-/// Point `number` of the pattern in which `count` points lie on a light. Each has one of `count` columns and
-/// one of `count` rows of equal width for itself, and they lie alike about the centre; k x k points also have
-/// a cell each of a grid of k x k (Kensler, Correlated multi-jittered sampling, Pixar technical memo 13-01,
-/// 2013, without the jitter). So edges of shadows at any angle have as many steps as there are points.
-Vec2<double> point_of_light(int number, int count);
 
 /// The trees that bring a picture of so many samples to its end soonest.
 TreeQuality suitable_quality(std::uint64_t primitives, std::uint64_t samples);

@@ -185,7 +185,7 @@ template <bool Seen> struct Work : Wavefront {
       see_term(at, LayerPlan::emission, Term::emission, -1, emission);
       const C I = illuminate<Model>(s, Ia, point_count, arriving, [&](Term term, int number, const C& color) {
         const int point = number < 0 ? -1 : int(scratch.reaching[number]);
-        const int l = number < 0 ? -1 : frame.light_points[point].light;
+        const int l = number < 0 ? -1 : frame.light_points[point].source;
         const int layer = term == Term::ambient   ? int(LayerPlan::ambient)
                           : term == Term::diffuse ? LayerPlan::diffuse(l)
                                                   : LayerPlan::specular(l);

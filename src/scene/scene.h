@@ -164,7 +164,7 @@ inline constexpr Parameter<Fog> parameters_of<Fog>[] = {
 struct Illumination {
   ModelId model = ModelId::phong;
   Rgb ambient{1, 1, 1};                                   ///< Ia.
-  std::map<std::string, Spectrum> spectra = {};                ///< Of colours that are given as spectra.
+  std::map<std::string, Spectrum> spectra = {};           ///< Of colours that are given as spectra.
   std::optional<Attenuation> attenuation;                 ///< Unset: the model's own.
   std::optional<AmbientAttenuation> ambient_attenuation;  ///< Likewise.
   double minimum_distance = 1e-3;
@@ -182,6 +182,7 @@ struct WhittedSettings {
   bool shadows = true;
   bool colored_shadows = true;
   bool trace_black_rays = false;
+  int emission_samples = 0, background_samples = 0;
 };
 template <>
 inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
@@ -203,6 +204,19 @@ inline constexpr Parameter<WhittedSettings> parameters_of<WhittedSettings>[] = {
      "",
      "Whether mirror rays are thrown from every reflecting or transmitting surface though their colour "
      "counts nothing, as the SPD benchmark counts rays."},
+    {"emission_samples",
+     &WhittedSettings::emission_samples,
+     {0, 4096},
+     "",
+     "How many lights stand for all surfaces that have `emission`, planes excepted: they light others then. "
+     "0: "
+     "they only shine themselves. `path` does without."},
+    {"background_samples",
+     &WhittedSettings::background_samples,
+     {0, 4096},
+     "",
+     "How many directional lights stand for the background, a colour or a picture. 0: it lights nothing. "
+     "`path` does without."},
 };
 
 /// Path tracing: the rendering equation. `image.samples` paths for each pixel.
@@ -343,10 +357,10 @@ struct Material {
   /// incidence, reflect and, in wavelength_specular, specular on what is reflected at the angle at hand, and
   /// transmit on the rest.
   std::optional<Substance> substance;
-  double roughness = 0;                     ///< Of the substance.
-  std::vector<MaterialMap> maps;            ///< Any number; of those of one slot, all multiply.
-  std::optional<ModelId> model;             ///< Unset: the scene's.
-  std::map<std::string, double> own;        ///< The models' own parameters that the file gives, by name.
+  double roughness = 0;                          ///< Of the substance.
+  std::vector<MaterialMap> maps;                 ///< Any number; of those of one slot, all multiply.
+  std::optional<ModelId> model;                  ///< Unset: the scene's.
+  std::map<std::string, double> own;             ///< The models' own parameters that the file gives, by name.
   std::map<std::string, Spectrum> spectra = {};  ///< Of colours that are given as spectra, by parameter.
 };
 /// Whether light can go through it somewhere: by `transmit`, by what is not opaque of it, or through gaps.

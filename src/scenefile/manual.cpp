@@ -208,6 +208,17 @@ way round and the height, boxes, rectangles and polygons those of the plane they
 
 )";
 
+constexpr const char* whitted_text =
+    R"(In Whitted's sum `lights` light surfaces. Surfaces with `emission` and the background are seen, in mirrors too, and light others where
+`emission_samples` and `background_samples` say so: `--set integrator.whitted.background_samples=64` lights any scene by its sky. So many
+lights then stand for them, the same for all surface points, so that the picture has no noise, but shadows have steps where there are few. What shines
+is cut in two, again and again, where it extends farthest, with half of the power on either side (the median cut of Debevec, 2005). A
+part of a surface becomes a point of it with Il = Le A / pi times the cosine there, and a sphere one with Il = Le R^2, for its radiance Le; it fades as
+`illumination` says, and 1/r^2 is right. A part of the sky becomes a `directional` light with Il = (sum of L dw) / pi: a matt, open floor below an even sky of radiance L
+gets Kd L. Both have layers, `surfaces` and `sky`. The ambient term stands for the same light, so take `ambient: 0` with them.
+
+)";
+
 constexpr const char* path_text =
     R"(`integrator: {path: {}}` solves the rendering equation: light reaches a surface from lights, from the background, from surfaces
 that shine, and from all other surfaces. `lambent render scene.yaml --integrator path` shows any scene so.
@@ -414,7 +425,7 @@ std::string scene_manual() {
       "brings the attenuations "
       "that hold where the scene does not say:\n\n" +
       models_overview(f.models) + models_text(f.models);
-  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + path_text +
+  text += "## Integrator\n\n" + table(f.integrator.fields) + kinds(f.integrators) + whitted_text + path_text +
           "### Wavelengths\n\n" + spectral_text + "### Openness and views\n\n" + occlusion_integrator_text +
           view_text;
   text +=

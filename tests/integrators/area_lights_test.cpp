@@ -8,6 +8,7 @@
 
 #include "explain/derivation.h"
 #include "integrators/kernels.h"
+#include "integrators/light_pattern.h"
 #include "integrators/prepare.h"
 #include "lambent/lambent.h"
 #include "scene/standing_lights.h"
