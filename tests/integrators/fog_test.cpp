@@ -91,6 +91,38 @@ TEST(Fog, OnEveryWayOfMirroredAndRefractedRays) {
   EXPECT_NE(std::string::npos, text.find("the fog before it"));
 }
 
+TEST(Fog, PathsSeeItOnTheEyesWayAndInMirrors) {
+  // What shines behind fog is the same as ever.
+  const double left = std::exp(-0.2 * 2);
+  expect_color({left * 0.8 + (1 - left) * 0.1, left * 0.4 + (1 - left) * 0.2, left * 0.2 + (1 - left) * 0.7},
+               head +
+                   "integrator: {path: {}}\nfog: {color: [0.1, 0.2, 0.7], density: 0.2}\nobjects: [{plane: "
+                   "{point: [0, 0, -2], normal: [0, 0, 1]}, " +
+                   glowing(0.8, 0.4, 0.2) + "}]\n");
+  // A mirror of 0.5 at 3, and a wall of 0.8 at 8 on that way: either the path goes on, or it ends there.
+  const double first = std::exp(-0.3 * 3), mirrored = std::exp(-0.3 * 8);
+  const double expected = (1 - first) * 0.6 + first * 0.5 * ((1 - mirrored) * 0.6 + mirrored * 0.8);
+  const std::string mirror = head +
+                             "integrator: {path: {until: 0.001}}\nfog: {color: 0.6, density: 0.3}\nobjects:\n"
+                             "  - {plane: {point: [0, 0, -3], normal: [0, 0, 1]}, " +
+                             glowing(0, 0, 0, ", reflect: 0.5") +
+                             "}\n  - {plane: {point: [0, 0, 5], normal: [0, 0, 1]}, " +
+                             glowing(0.8, 0.8, 0.8) + "}\n";
+  const ScenePtr scene = parse_scene(mirror, "scene", {{{"film.layers", "true"}}});
+  const RenderResult result = render(scene);
+  EXPECT_NEAR(expected, result.image.pixel(0, 0)[0], 5 * 0.001 * expected);
+  const DerivationPtr derivation = explain(scene, 0, 0);
+  EXPECT_TRUE(adds_up(derivation));
+  // Of matt surfaces fog hides only what the eye sees: a floor below a lamp is the same as in Whitted's sum.
+  const double through = std::exp(-0.5 * 4);
+  const std::string dark = head.substr(0, head.find("background")) + "background: 0\n";
+  expect_color(grey(through * 0.6 / (54.0 * 54.0) * 3000 + (1 - through) * 0.2),
+               dark +
+                   "integrator: {path: {max_depth: 2}}\nfog: {color: 0.2, density: 0.5}\n"
+                   "lights: [{point: {position: [0, 0, 50], intensity: 3000}}]\n"
+                   "objects: [{plane: {point: [0, 0, -4], normal: [0, 0, 1]}, material: {diffuse: 0.6}}]\n");
+}
+
 TEST(Fog, WithoutItNothingChanges) {
   const std::string scene =
       "objects: [{sphere: {center: [0, 0, -4], radius: 1}, " + glowing(0.5, 0.4, 0.3) + "}]\n";

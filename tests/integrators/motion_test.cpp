@@ -137,9 +137,13 @@ TEST(Motion, HasLayersAndExplainsAndIsTheSameForAnyThreads) {
       glowing("sphere: {center: [-0.3, 0, 0], radius: 0.4}", "{translate: [0.6, 0.2, 0]}") +
       "  - {sphere: {center: [0.4, -0.4, -0.5], radius: 0.4}, material: {reflect: 0.5}}\n"
       "  - {plane: {point: [0, 0, -2], normal: [0, 0, 1]}}\n";
-  for (const int samples : {1, 6, 20}) {
-    const ScenePtr plain = parse_scene(head(samples) + scene);
-    const ScenePtr layered = parse_scene(head(samples) + scene, "scene", {{{"film.layers", "true"}}});
+  for (const auto& [samples, integrator] :
+       {std::pair{1, "whitted"}, {6, "whitted"}, {20, "whitted"}, {6, "path"}}) {
+    LoadOptions loading;
+    loading.integrator = integrator;
+    const ScenePtr plain = parse_scene(head(samples) + scene, "scene", loading);
+    loading.set = {{"film.layers", "true"}};
+    const ScenePtr layered = parse_scene(head(samples) + scene, "scene", loading);
     RenderOptions options;
     options.threads = 3;
     options.tile_size = 7;

@@ -260,18 +260,27 @@ double critical_chi_square(int degrees) {
 }
 
 /// Compares how often scatter() takes directions of each cell of the sphere with the integral of evaluate()'s
-/// density over it. What is perfect, and what leads nowhere, is a cell of its own.
-template <ScatterKind kind> void expect_density(const Case& test, int seed) {
+/// density over it. What is perfect, and what leads nowhere, is a cell of its own. Cells are rows about the
+/// pole: of equal angles, or with a power of them for lobes that are narrow about it; what lies on the other
+/// side of the surface is then one cell.
+template <ScatterKind kind>
+void expect_density(const Case& test, int seed, const V& pole = {0, 0, 1}, double power = 1) {
   constexpr int rows = 40, columns = 24, inner_rows = 12, inner_columns = 8, count = 40000;
+  const Axes<double> axes = axes_around(pole);
+  const auto elsewhere = [&](const V& L) { return power != 1 && L.z * pole.z < 0; };
   const Scattering<kind, double, Rgb> scattering(test.s);
   std::vector<double> expected(rows * columns + 1), found(rows * columns + 1);
   double all = 0;
   for (int i = 0; i < rows * inner_rows; ++i) {
-    const double angle = M_PI * (i + 0.5) / (rows * inner_rows);
-    const double area = 2 * M_PI * M_PI * std::sin(angle) / (rows * inner_rows * columns * inner_columns);
+    const auto angle_at = [&](double at) { return M_PI * std::pow(at / (rows * inner_rows), power); };
+    const double angle = angle_at(i + 0.5);
+    const double area =
+        2 * M_PI * (std::cos(angle_at(i)) - std::cos(angle_at(i + 1))) / (columns * inner_columns);
     for (int j = 0; j < columns * inner_columns; ++j) {
       const double turns = (j + 0.5) / (columns * inner_columns);
-      const double share = count * area * scattering.evaluate(direction(std::cos(angle), turns)).density;
+      const V L = to_world(axes, direction(std::cos(angle), turns));
+      if (elsewhere(L)) continue;
+      const double share = count * area * scattering.evaluate(L).density;
       expected[i / inner_rows * columns + j / inner_columns] += share;
       all += share;
     }
@@ -282,13 +291,14 @@ template <ScatterKind kind> void expect_density(const Case& test, int seed) {
   for (int i = 0; i < count; ++i) {
     const double u = number(random), v = number(random), w = number(random);
     const auto out = scattering.scatter(u, v, w);
-    if (out.perfect || out.density == 0) {
+    if (out.perfect || out.density == 0 || elsewhere(out.L)) {
       ++found.back();
       continue;
     }
-    const double angle = std::atan2(std::hypot(out.L.x, out.L.y), out.L.z);
-    const int row = std::min(int(angle / M_PI * rows), rows - 1);
-    const double turn = std::atan2(out.L.y, out.L.x) / (2 * M_PI);
+    const V L{dot(axes.x, out.L), dot(axes.y, out.L), dot(axes.z, out.L)};
+    const double angle = std::atan2(std::hypot(L.x, L.y), L.z);
+    const int row = std::min(int(std::pow(angle / M_PI, 1 / power) * rows), rows - 1);
+    const double turn = std::atan2(L.y, L.x) / (2 * M_PI);
     const int column = std::min(int((turn < 0 ? turn + 1 : turn) * columns), columns - 1);
     ++found[row * columns + column];
   }
@@ -310,6 +320,30 @@ TEST(Scattering, TakesDirectionsWithTheDensityThatItSays) {
   for_each_kind([](auto kind) {
     int seed = 100;
     for (const Case& test : cases(kind())) expect_density<kind()>(test, ++seed);
+  });
+}
+
+/// Narrow lobes, about the mirrored and the refracted direction of a smooth surface.
+TEST(Scattering, TakesDirectionsOfNarrowLobesWithTheDensityThatItSays) {
+  for_each_kind([](auto kind) {
+    if (kind() == ScatterKind::lecture_phong || kind() == ScatterKind::lecture_blinn) return;
+    int seed = 900;
+    for (const double cosine : {0.95, 0.6, 0.25})
+      for (const double roughness : {0.12, 0.2, 0.3})
+        for (const bool outside : {true, false}) {
+          if (!outside && kind() != ScatterKind::glass) continue;
+          Point s = level(cosine);
+          s.roughness = s.rough.roughness = roughness, s.outside = outside, s.rough.metallic = 0.5;
+          const std::string name = std::string(name_of(kind())) + ", N.V " + std::to_string(cosine) +
+                                   ", roughness " + std::to_string(roughness) + (outside ? "" : ", inside");
+          const V mirrored{-s.V.x, -s.V.y, s.V.z};
+          expect_density<kind()>({name, s}, ++seed, mirrored, 3);
+          if (kind() != ScatterKind::glass) continue;
+          const double eta = outside ? s.ior : 1 / s.ior, below = 1 - (1 - cosine * cosine) / (eta * eta);
+          if (below <= 0) continue;  // all is reflected
+          const V refracted{-s.V.x / eta, -s.V.y / eta, -std::sqrt(below)};
+          expect_density<kind()>({name + ", refracted", s}, ++seed, refracted, 3);
+        }
   });
 }
 
