@@ -99,11 +99,12 @@ struct Wavefront {
     RayQueue& rays = scratch.rays;
     rays.count = count;
     const bool has_lens = frame.camera.lens_radius > 0;
+    if (has_lens) choose_lens_points(first, count);
+    const int* order = frame.order;
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int sample = task.first_sample + int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
-      const int which = sample_at(sample);
-      if (has_lens) choose_lens_point(i, task.pixels[pixel], which);
+      const int which = order ? order[sample] : sample;
       rays.ox[i] = task.pixels[pixel].x + frame.pattern[which].x;
       rays.oy[i] = task.pixels[pixel].y + frame.pattern[which].y;
       rays.sample[i] = i;
@@ -139,14 +140,20 @@ struct Wavefront {
     if (frame.cones) begin_cones(count);
   }
 
-  /// Where ray i goes through the lens, in scene units from its centre; kept where its direction will be.
+  /// Where rays go through the lens, in scene units from its centre; kept where their directions will be.
   /// Which point says nothing about where in its pixel the sample lies, nor about the neighbours' points.
-  void choose_lens_point(std::uint32_t i, const Pixel& pixel, int sample) const {
-    const Vec2<double> at =
-        random_point(std::uint32_t(sample), hashed(seed_of_pixel(pixel.x, pixel.y) + lens_pair));
-    const Vec2<double> point = on_disc(at.x, at.y);
-    scratch.rays.dx[i] = frame.camera.lens_radius * point.x;
-    scratch.rays.dy[i] = frame.camera.lens_radius * point.y;
+  [[gnu::noinline]] void choose_lens_points(std::uint64_t first, std::uint32_t count) const {
+    auto pixel = std::uint32_t(first / samples_per_pixel());
+    int sample = task.first_sample + int(first % samples_per_pixel());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Pixel& at_pixel = task.pixels[pixel];
+      const Vec2<double> at = random_point(std::uint32_t(sample_at(sample)),
+                                           hashed(seed_of_pixel(at_pixel.x, at_pixel.y) + lens_pair));
+      const Vec2<double> point = on_disc(at.x, at.y);
+      scratch.rays.dx[i] = frame.camera.lens_radius * point.x;
+      scratch.rays.dy[i] = frame.camera.lens_radius * point.y;
+      if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
+    }
   }
 
   /// How wide eye rays are: a pixel, or a sample's share of one. Off the picture's middle pixels cover less
