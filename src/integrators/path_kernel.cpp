@@ -85,14 +85,15 @@ template <bool Seen> struct Work : Wavefront {
     F x, y;
   };
   [[gnu::noinline]] Draw draw(const Lanes& at, Pair pair) const {
-    double x[lanes], y[lanes];
+    std::uint32_t number[lanes];
+    std::uint64_t seed[lanes];
     const auto dimension = std::uint64_t((depth - 1) * pairs_per_vertex + pair);
     for (int k = 0; k < lanes; ++k) {
       const std::uint32_t i = scratch.rays.sample[at.ray[k]];
-      const Vec2<double> point = random_point(numbers[i], hashed(seeds[i] + dimension));
-      x[k] = point.x, y[k] = point.y;
+      number[k] = numbers[i], seed[k] = hashed(seeds[i] + dimension);
     }
-    return {F::load(x), F::load(y)};
+    const Vec2<F> points = random_points(number, seed);
+    return {points.x, points.y};
   }
 
   // ---- what shines where a path gets to
@@ -231,10 +232,13 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   template <ScatterKind kind> void shade(const Lanes& at, const Hits& hits) {
-    const Draw choice = draw(at, choices), chance = draw(at, chances);
     const F opacity = hits.painted ? hits.painted->opacity : given(hits, [](const MaterialRecord& m) {
       return m.alpha == Alpha::mask ? 1.0 : m.opacity;
     });
+    // Drawn where something is left to chance.
+    const bool roulette = depth >= frame.path.roulette_depth && depth < frame.path.max_depth;
+    Draw chance{F(0), F(0)};
+    if (roulette || any(both(at.active, opacity < F(1)))) chance = draw(at, chances);
     const Truth solid = both(at.active, chance.y < opacity);
     const std::uint32_t passing = lane_bits(at.active) & ~lane_bits(solid);
     for (std::uint32_t left = passing; left; left &= left - 1) pass_on(at, hits, __builtin_ctz(left));
@@ -244,6 +248,7 @@ template <bool Seen> struct Work : Wavefront {
       if (frame.witness) tell_hits(at, hits, lane_bits(solid));
     }
     send_out(at, hits, lane_bits(solid));
+    const Draw choice = draw(at, choices);
     const ScatterSurface<F, C> s = surface_of<kind>(hits);
     const Scattering<kind, F, C> scattering(s);
     // Light is looked for on the side that the normal shows; on both where the surface lets some through.
