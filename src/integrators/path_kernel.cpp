@@ -288,7 +288,7 @@ template <bool Seen> struct Work : Wavefront {
   // One copy for all kinds of surfaces: a kernel takes long enough to compile.
   [[gnu::noinline]] EmitterSample light_at(const Vec3<double>& P, const Vec3<double>& N, double pick,
                                            double u, double v) const {
-    return sample_emitters(frame, P, N, pick, u, v);
+    return sample_emitters(frame, P, N, pick, u, v, depth < frame.path.max_depth);
   }
 
   template <class Material>
