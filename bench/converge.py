@@ -281,7 +281,7 @@ def measure(programs, scene, budget, rounds):
     reference, variance = pooled(converged)
     for program in programs:
         ladder = [most[program.name] // 2]
-        while ladder[-1] >= 16 and len(ladder) < 4:
+        while ladder[-1] >= 8 and len(ladder) < 4:
             ladder.append(ladder[-1] // 4)
         points[program.name] = []
         for samples in reversed(ladder):
