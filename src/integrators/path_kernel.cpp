@@ -291,28 +291,79 @@ template <bool Seen> struct Work : Wavefront {
     return sample_emitters(frame, P, N, pick, u, v, depth < frame.path.max_depth);
   }
 
+  /// A light that each lane of a packet looks for: as EmitterSample.
+  struct Searched {
+    Vec3<F> L;
+    F r, clear;
+    C brings;  ///< What f |N.L| is multiplied with.
+    F density;
+    int source[lanes];
+  };
+
+  /// One of all that shines.
+  [[gnu::noinline]] Searched search_all(const Lanes& at, const Hits& hits, const Vec3<F>& facing,
+                                        std::uint32_t asked, const F& pick) const {
+    double L[3][lanes] = {}, brings[color_channels][lanes] = {}, density[lanes] = {}, clear[lanes] = {};
+    double distance[lanes] = {};
+    Searched out;
+    const Draw point = draw(at, light_point);
+    for (; asked; asked &= asked - 1) {
+      const int k = __builtin_ctz(asked);
+      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
+                                       lane(point.x, k), lane(point.y, k));
+      L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
+      for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
+      density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, out.source[k] = e.light;
+    }
+    out.L = {F::load(L[0]), F::load(L[1]), F::load(L[2])};
+    for (int c = 0; c < color_channels; ++c) out.brings[c] = F::load(brings[c]);
+    out.r = F::load(distance), out.clear = F::load(clear), out.density = F::load(density);
+    return out;
+  }
+
+  /// The light with extent that is all that shines; -1: there is another, or more. Its choice is certain, and
+  /// a whole packet looks for it at once. Where it lights nothing search_all would not have asked: it is
+  /// black there all the same.
+  int only_light() const {
+    const EmitterTable& table = *frame.emitters;
+    if (table.root_count != 1 || table.roots[0].node < 0) return -1;
+    const LightNode& node = table.nodes[table.roots[0].node];
+    if (node.child >= 0) return -1;
+    const Emitter& e = table.emitters[node.emitter];
+    if (e.kind != EmitterKind::light) return -1;
+    const bool has_extent =
+        with_light(frame.lights[e.light], []<class Light>(const Light&) { return bool(HasExtent<Light>); });
+    return has_extent ? e.light : -1;
+  }
+  [[gnu::noinline]] Searched search_one(const Lanes& at, const Hits& hits, int number) const {
+    const Draw point = draw(at, light_point);
+    Searched out;
+    for (int k = 0; k < lanes; ++k) out.source[k] = number;
+    with_light(frame.lights[number], [&]<class Light>(const Light& light) {
+      if constexpr (HasExtent<Light>) {
+        const LightSample<F, C> s = sample(light, hits.P, point.x, point.y);
+        const Truth black = is_black(s.I);
+        out.L = s.L, out.r = s.r, out.clear = select(black, F(0), s.clear);
+        out.brings = select(black, C{}, (F(pi) / (s.r * s.r)) * s.I);
+        out.density = select(black, F(0), light.visible ? s.density : F(0));
+      }
+    });
+    return out;
+  }
+
   template <class Material>
   [[gnu::noinline]] void look_for_light(const Lanes& at, const Hits& hits, const Material& scattering,
                                         const Vec3<F>& facing, const Truth& solid, const F& pick) {
     const Truth asked = both(solid, Truth(!scattering.only_perfect()));
     if (!any(asked)) return;
-    double L[3][lanes] = {}, brings[color_channels][lanes] = {}, density[lanes] = {}, clear[lanes] = {};
-    double distance[lanes] = {};
-    int source[lanes] = {};
-    const Draw point = draw(at, light_point);
-    for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
-      const int k = __builtin_ctz(left);
-      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
-                                       lane(point.x, k), lane(point.y, k));
-      L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
-      for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
-      density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, source[k] = e.light;
-    }
-    const Vec3<F> to_light{F::load(L[0]), F::load(L[1]), F::load(L[2])};
+    const int only = Seen ? -1 : only_light();
+    const Searched search =
+        only >= 0 ? search_one(at, hits, only) : search_all(at, hits, facing, lane_bits(asked), pick);
+    const Vec3<F>& to_light = search.L;
     const Evaluated<F, C> f = scattering.evaluate(to_light);
     C light;
-    for (int c = 0; c < color_channels; ++c) light[c] = f.value[c] * F::load(brings[c]);
-    const F found = F::load(density);
+    for (int c = 0; c < color_channels; ++c) light[c] = f.value[c] * search.brings[c];
+    const F& found = search.density;
     // The path's last ray: nothing will find the light in the other way.
     const F weight =
         depth < frame.path.max_depth ? select(found > F(0), weight_against(found, f.density), F(1)) : F(1);
@@ -322,7 +373,7 @@ template <bool Seen> struct Work : Wavefront {
     F share(1);
     if (any(lit)) {
       const Vec3<F> start = select(dot(to_light, hits.G) > F(0), hits.front, hits.back);
-      open = shadows(shadow_rays(start, hits.P, to_light, F::load(clear)), lit, share);
+      open = shadows(shadow_rays(start, hits.P, to_light, search.clear), lit, share);
       light = share * light;
     }
     for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
@@ -337,22 +388,15 @@ template <bool Seen> struct Work : Wavefront {
       }
       if constexpr (Seen) {
         if (frame.witness)
-          frame.witness->search(frame.witness->self, {scratch.rays.number[at.ray[k]],
-                                                      source[k],
-                                                      lane_vector(to_light, k),
-                                                      distance[k],
-                                                      {brings[0][k], brings[1][k], brings[2][k]},
-                                                      density[k],
-                                                      lane_color(f.value, k),
-                                                      lane(f.density, k),
-                                                      lane(weight, k),
-                                                      bool(lane_bits(lit) >> k & 1),
-                                                      reached,
-                                                      lane(share, k),
-                                                      one});
+          frame.witness->search(
+              frame.witness->self,
+              {scratch.rays.number[at.ray[k]], search.source[k], lane_vector(to_light, k), lane(search.r, k),
+               lane_color(search.brings, k), lane(found, k), lane_color(f.value, k), lane(f.density, k),
+               lane(weight, k), bool(lane_bits(lit) >> k & 1), reached, lane(share, k), one});
         if (reached && task.layer_sums)
-          add_to_layer(at.ray[k], depth == 1 ? LayerPlan::direct(source[k]) : LayerPlan::indirect(source[k]),
-                       one);
+          add_to_layer(
+              at.ray[k],
+              depth == 1 ? LayerPlan::direct(search.source[k]) : LayerPlan::indirect(search.source[k]), one);
       }
     }
   }
