@@ -307,7 +307,8 @@ def main():
     parser.add_argument("--program", required=True)
     parser.add_argument("--quick", action="store_true", help="fewer samples, fewer rounds")
     parser.add_argument("--scenes", help="only those whose name contains this")
-    parser.add_argument("--keep", action="store_true", help="leave the converged pictures beside the page, as NumPy's files")
+    parser.add_argument("--keep", action="store_true",
+                        help="leave the converged pictures beside the page, as NumPy's files")
     parser.add_argument("--output", required=True, help="folder of convergence.md and pictures/")
     arguments = parser.parse_args()
     threads = os.cpu_count()
@@ -341,7 +342,8 @@ def write(output, programs, results, threads):
         for who in peers:
             a, b = converged["Lambent"], converged[who]
             difference, error = difference_of_means(a, b)
-            agreement.append(f"| {name} | {who} | {CONVERGED * most['Lambent']}, {CONVERGED * most[who]} | {z_squared(a, b):.3f} | "
+            samples = f"{CONVERGED * most['Lambent']}, {CONVERGED * most[who]}"
+            agreement.append(f"| {name} | {who} | {samples} | {z_squared(a, b):.3f} | "
                              f"{100 * beyond_three(a, b):.2f} % | {z_squared(tiles_of(a), tiles_of(b)):.3f} | "
                              f"{100 * difference:+.3f} % | {100 * error:.3f} % |")
             cells = []
@@ -365,33 +367,39 @@ def write(output, programs, results, threads):
 
 <!-- Written by script/converge from what it measured; do not edit. -->
 
-Lambent's `path` against {" and ".join(peers)}, on the same scenes: whether they compute the same, and how long they take to the same
-error. `script/converge` measures all that stands here, on your machine too. {"; ".join(p.version for p in programs)}; {platform.machine()},
-{threads} threads each, {SIZE} x {SIZE} pixels.
+Lambent's `path` against {" and ".join(peers)}, on the same scenes: whether they compute the same, and how long they
+take to the same error. `script/converge` measures all that stands here, on your machine too.
+{"; ".join(p.version for p in programs)}; {platform.machine()}, {threads} threads each, {SIZE} x {SIZE} pixels.
 
-**Equal settings.** The scenes (`bench/converge_scenes.py`) hold only what all programs can express exactly: flat triangles, Lambert's matt
-surfaces, perfect mirrors and glass, a smooth GGX metal, rectangular lamps, meshes that shine, an even sky, a sun without extent. Paths
-have the same number of rays and no Russian roulette; box filter; no clamping, no denoising, no adaptive samples. Each program looks for light in
-its own way, and takes the random numbers that it takes by default.
+**Equal settings.** The scenes (`bench/converge_scenes.py`) hold only what all programs can express exactly: flat
+triangles, Lambert's matt surfaces, perfect mirrors and glass, a smooth GGX metal, rectangular lamps, meshes that
+shine, an even sky, a sun without extent. Paths have the same number of rays and no Russian roulette; box filter; no
+clamping, no denoising, no adaptive samples. Each program looks for light in its own way, and takes its own random
+numbers: Mitsuba multijittered ones, of its samplers that with the least noise here, Cycles its Sobol points from the
+65536th on, as its first sample goes through the centre of every pixel, so that edges would be off in all its pictures.
 
-**Agreement.** {CONVERGED} pictures of each program with other seeds. For each pixel and channel z is the difference of the means over its standard error. Where
-two programs compute the same, the mean of z squared is 1 (Student's t is allowed for, squares count up to {MOST}), and |z| is above 3 in
-{100 * expected_beyond:.1f} % of the pixels. The same of the means over tiles of {TILE} x {TILE} pixels, which have less noise, so that less is hidden in it; and the difference
-of the whole pictures' means, with its standard error. Two things are known to differ: Lambent makes up for the light that a microfacet metal loses, which
-is below 0.05 % where alpha = 0.01; and its samples lie in the same places of every pixel, so that at edges its error is
-regular, not noise: most in the box, whose lamp is in the picture and 40 times brighter than what is around it.
+**Agreement.** {CONVERGED} pictures of each program with other seeds. For each pixel and channel z is the difference
+of the means over its standard error. Where two programs compute the same, the mean of z squared is 1 (Student's t is
+allowed for, squares count up to {MOST}), and |z| is above 3 in {100 * expected_beyond:.1f} % of the pixels. The same
+of the means over tiles of {TILE} x {TILE} pixels, which have less noise, so that less is hidden in it; and the
+difference of the whole pictures' means, with its standard error. Two things are known to differ: Lambent makes up for
+the light that a microfacet metal loses, which is below 0.05 % where alpha = 0.01; and its samples lie in the same
+places of every pixel, so that at edges its error is regular, not noise: most in the box, whose lamp is in the picture
+and 40 times brighter than what is around it.
 
 | scene | Lambent and | samples | z squared | beyond 3 | z squared of tiles | means differ by | standard error |
 |---|---|---|---|---|---|---|---|
 {chr(10).join(agreement)}
 
-**Speed.** An error is the root mean square over the pixels of the relative difference from the reference, the mean of all programs' pictures above, each counting as
-its noise allows; the error that the reference has left is taken off. (To what is divided by, a tenth of the mean is added in squares.) Below stands how much
-longer than Lambent the other program takes to the same error, above 1 where Lambent is faster: the geometric mean over all errors that both reach,
-and the least and the most. Seconds are each program's own for rendering, without reading the scene and building trees: Lambent's
-`seconds.render`, Cycles' render time without synchronization (as its EXR files tell), the call of `render` in Mitsuba, whose kernels are
-compiled before. CPU seconds are those that the process was charged with by the operating system, for Lambent and Cycles with all that it did; they say more where others use the
-machine at the same time. Each is the least of the rounds.
+**Speed.** An error is the root mean square over the pixels of the relative difference from the reference, the mean of
+all programs' pictures above, each counting as its noise allows; the error that the reference has left is taken off.
+(To what is divided by, a tenth of the mean is added in squares.) Below stands how much longer than Lambent the other
+program takes to the same error, above 1 where Lambent is faster: the geometric mean over all errors that both reach,
+and the least and the most. Seconds are each program's own for rendering, without reading the scene and building
+trees: Lambent's `seconds.render`, Cycles' render time without synchronization (as its EXR files tell), the call of
+`render` in Mitsuba, whose kernels are compiled before. CPU seconds are those that the process was charged with by the
+operating system, for Lambent and Cycles with all that it did; they say more where others use the machine at the same
+time. Each is the least of the rounds.
 
 | scene | against | time at equal error | CPU time at equal error |
 |---|---|---|---|

@@ -112,7 +112,8 @@ class Cycles:
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
         cycles.caustics_reflective = cycles.caustics_refractive = True
         # Bounces: rays after the one from the eye. No Russian roulette among them.
-        cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = scene["depth"] - 1
+        bounces = scene["depth"] - 1
+        cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
         cycles.transparent_max_bounces = 1024
         # Sample 0 goes through the centre of every pixel, so that edges would be off in all pictures; the others do not.
         cycles.sample_offset = 65536

@@ -1,5 +1,5 @@
-"""Mitsuba 3 for converge.py: converge_mitsuba.py THREADS. Its fastest variant for processors: with LLVM, where that works,
-compiled before the clock starts; else the scalar one."""
+"""Mitsuba 3 for converge.py: converge_mitsuba.py THREADS [VARIANT]. Its fastest variant for processors: with LLVM, where
+that works, compiled before the clock starts; else the scalar one. Its sampler with the least noise in these scenes."""
 
 import os
 import sys

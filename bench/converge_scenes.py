@@ -8,9 +8,9 @@ A scene holds
   lamps              {"center", "u", "v": sides, "radiance"}: rectangles that shine where u x v points. Nothing stands
                      behind them, and where there are some the sky is black: lamps of Cycles hide nothing
   things             {"vertices", "faces": triangles, "material"}: flat faces, without smooth normals
-Materials are {"matt": color}, {"metal": roughness} (GGX, alpha = roughness^2, which reflects all light; smooth enough that
-what microfacets lose is below the noise, as only some programs make up for it), {"mirror": color}, {"glass": index}, both
-perfectly smooth, and {"shines": radiance}, which reflects nothing.
+Materials are {"matt": color}, {"metal": roughness} (GGX, alpha = roughness^2, which reflects all light; smooth enough
+that what microfacets lose is below the noise, as only some programs make up for it), {"mirror": color} and
+{"glass": index}, both perfectly smooth, and {"shines": radiance}, which reflects nothing.
 """
 
 import array
