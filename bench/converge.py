@@ -129,11 +129,19 @@ PEERS = [("Mitsuba", "converge_mitsuba.py", "mitsuba", "PYTHON_MITSUBA"),
          ("Cycles", "converge_cycles.py", "bpy", "PYTHON_CYCLES")]
 
 
+def has_modules(python, *modules):
+    try:
+        return subprocess.run([python, "-c", f"import {', '.join(modules)}"], capture_output=True,
+                              check=False).returncode == 0
+    except OSError:  # there is no such program
+        return False
+
+
 def start_peers(scratch, threads):
     found = []
     for name, script, module, variable in PEERS:
         python = os.environ.get(variable) or sys.executable
-        if subprocess.run([python, "-c", f"import numpy, {module}"], capture_output=True, check=False).returncode == 0:
+        if has_modules(python, "numpy", module):
             found.append(Peer(name, script, python, scratch, threads))
         else:
             print(f"converge: without {name}: {python} has no modules {module} and numpy (pip install {module} numpy; "
