@@ -189,9 +189,11 @@ def read_exr(path):
 
 def squared_error(picture, reference, variance):
     """The mean of the squares of the relative errors of the pixels, without the error that the reference itself has left.
-    A hundredth of the mean is added to what is divided by, so that dark pixels do not count without bounds."""
-    squares = reference**2 + (0.1 * numpy.mean(reference)) ** 2
-    return float(numpy.mean(((picture - reference) ** 2 - variance) / squares))
+    A tenth of the mean is added to what is divided by, in squares, so that dark pixels do not count without bounds. What
+    the reference has left is an estimate, too: a tenth of what is measured counts in any case."""
+    scale = reference**2 + (0.1 * numpy.mean(reference)) ** 2
+    measured, left = numpy.mean((picture - reference) ** 2 / scale), numpy.mean(variance / scale)
+    return float(max(measured - left, 0.1 * measured))
 
 
 def pooled(converged):
