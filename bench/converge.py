@@ -285,9 +285,7 @@ def measure(programs, scene, budget, rounds):
     # In turn, so that whatever else the machine does meets all of them.
     for i in range(CONVERGED):
         for program in programs:
-            # Lambent's samples lie in a pixel as their number says, whatever the seed: with other numbers elsewhere.
-            samples = most[program.name] + (i if program.name == "Lambent" else 0)
-            converged.setdefault(program.name, []).append(program.render(samples, 1000 + i)[0])
+            converged.setdefault(program.name, []).append(program.render(most[program.name], 1000 + i)[0])
     reference, variance = pooled(converged)
     for program in programs:
         ladder = [most[program.name] // 2]
@@ -392,10 +390,8 @@ numbers: Mitsuba multijittered ones, of its samplers that with the least noise h
 of the means over its standard error. Where two programs compute the same, the mean of z squared is 1 (Student's t is
 allowed for, squares count up to {MOST}), and |z| is above 3 in {100 * expected_beyond:.1f} % of the pixels. The same
 of the means over tiles of {TILE} x {TILE} pixels, which have less noise, so that less is hidden in it; and the
-difference of the whole pictures' means, with its standard error. Two things are known to differ: Lambent makes up for
-the light that a microfacet metal loses, which is below 0.05 % where alpha = 0.01; and its samples lie in the same
-places of every pixel, so that at edges its error is regular, not noise: most in the box, whose lamp is in the picture
-and 40 times brighter than what is around it.
+difference of the whole pictures' means, with its standard error. One thing is known to differ: Lambent makes up for the light
+that a microfacet metal loses, which is below 0.05 % where alpha = 0.01.
 
 | scene | Lambent and | samples | z squared | beyond 3 | z squared of tiles | means differ by | standard error |
 |---|---|---|---|---|---|---|---|
