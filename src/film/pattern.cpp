@@ -19,33 +19,38 @@ double spread(double p, Filter filter) {
   return 0.5 + (p < 0.5 ? sqrt(2 * p) - 1 : 1 - sqrt(2 * (1 - p)));
 }
 
+/// p + shift in [0, 1), round about.
+double moved(double p, double shift) {
+  const double a = p + shift;
+  return a < 1 ? a : a - 1;
+}
+
 }  // namespace
 
-std::vector<Vec2<double>> sample_pattern(int samples, Filter filter) {
+std::vector<Vec2<double>> sample_pattern(int samples, Filter filter, const Vec2<double>& shift) {
   std::vector<std::uint32_t> order(samples);
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [](auto a, auto b) { return reversed_bits(a) < reversed_bits(b); });
   std::vector<Vec2<double>> points(samples);
   for (int row = 0; row < samples; ++row) {
     const auto column = order[row];
-    points[column] = {spread((column + 0.5) / samples, filter), spread((row + 0.5) / samples, filter)};
+    points[column] = {spread(moved((column + 0.5) / samples, shift.x), filter),
+                      spread(moved((row + 0.5) / samples, shift.y), filter)};
   }
   return points;
 }
 
-std::vector<Vec2<double>> progressive_pattern(int samples, int start, Filter filter) {
-  const double shift = 0.5 / start;
-  const auto moved = [&](std::uint32_t bits) {
-    const double a = bits * 0x1p-32 + shift;
-    return spread(a < 1 ? a : a - 1, filter);
-  };
+std::vector<Vec2<double>> progressive_pattern(int samples, int start, Filter filter,
+                                              const Vec2<double>& shift) {
+  const Vec2<double> by{moved(0.5 / start, shift.x), moved(0.5 / start, shift.y)};
   std::vector<Vec2<double>> points(samples);
   for (int i = 0; i < samples; ++i) {
     // The second coordinate's direction numbers: v[0] = 1/2, v[k] = v[k - 1] xor v[k - 1] / 2.
     std::uint32_t y = 0, direction = 1u << 31;
     for (std::uint32_t rest = std::uint32_t(i); rest; rest >>= 1, direction ^= direction >> 1)
       if (rest & 1) y ^= direction;
-    points[i] = {moved(reversed_bits(std::uint32_t(i))), moved(y)};
+    points[i] = {spread(moved(reversed_bits(std::uint32_t(i)) * 0x1p-32, by.x), filter),
+                 spread(moved(y * 0x1p-32, by.y), filter)};
   }
   return points;
 }

@@ -87,29 +87,59 @@ inline double importance_of_root(const Frame& frame, const EmitterRoot& root, co
   return faces ? root.irradiance * max(dot(N, root.L), 0.0) : root.irradiance;
 }
 
-/// Of all roots at a point: the sum of their importance, and how many have some.
-struct RootChances {
-  double sum = 0;
-  int count = 0;
-  RootChances(const Frame& frame, const Vec3<double>& P, const Vec3<double>& N) {
-    for (int i = 0; i < frame.emitters->root_count; ++i) {
-      const double one = importance_of_root(frame, frame.emitters->roots[i], P, N);
-      sum += one, count += one > 0;
+/// Of all roots at a point: how likely each is.
+///   goes_on  whether a path goes on from there, and finds what it is not looked for
+///
+/// A background of one colour is found as well by a path that goes on, as no other light is: chosen by the
+/// material, its direction is the better choice. To look for it, too, takes from what is done for the others.
+/// Let S be what these bring, B what the background brings, V its variance where it is in part hidden, as a
+/// share of B^2, and p the chance of the others; then S^2 (1 / p - 1) + B^2 V / (2 - p) is the variance, and
+/// least where p = 2 S / (S + B sqrt(V)): as if the background's importance were (B sqrt(V) - S) / 2. V = 1/4
+/// where four fifths of it are seen.
+class RootChances {
+  static constexpr int remembered = 8;
+  const Frame& frame_;
+  const Vec3<double>&P_, &N_;
+  double importances_[remembered];  ///< Of the first roots.
+  int even_sky_ = -1;               ///< The root that is found otherwise,
+  double sky_ = 0;                  ///< and what it counts.
+  double sum_ = 0;
+  int count_ = 0;  ///< Of those with some importance.
+
+ public:
+  RootChances(const Frame& frame, const Vec3<double>& P, const Vec3<double>& N, bool goes_on)
+      : frame_(frame), P_(P), N_(N) {
+    const EmitterTable& table = *frame.emitters;
+    for (int i = 0; i < table.root_count; ++i) {
+      const double one = importance_of_root(frame, table.roots[i], P, N);
+      if (i < remembered) importances_[i] = one;
+      if (goes_on && table.environment.width == 0 && table.roots[i].emitter == table.background &&
+          table.roots[i].node < 0) {
+        even_sky_ = i, sky_ = one;
+      } else {
+        sum_ += one, count_ += one > 0;
+      }
     }
+    if (even_sky_ < 0) return;
+    sky_ = max(0.5 * sky_ - sum_, 0.0) * 0.5;
+    sum_ += sky_, count_ += sky_ > 0;
   }
-  double of(double importance) const {
-    return importance > 0 ? (1 - even_share) * (importance / sum) + even_share / count : 0;
+  double of(int root) const {
+    const double one = root == even_sky_   ? sky_
+                       : root < remembered ? importances_[root]
+                                           : importance_of_root(frame_, frame_.emitters->roots[root], P_, N_);
+    return one > 0 ? (1 - even_share) * (one / sum_) + even_share / count_ : 0;
   }
 };
 
-inline PickedLight pick_emitter(const Frame& frame, const Vec3<double>& P, const Vec3<double>& N,
-                                double pick) {
+inline PickedLight pick_emitter(const Frame& frame, const Vec3<double>& P, const Vec3<double>& N, double pick,
+                                bool goes_on = true) {
   const EmitterTable& table = *frame.emitters;
-  const RootChances chances(frame, P, N);
+  const RootChances chances(frame, P, N, goes_on);
   int chosen = -1;
   double chance = 0;
   for (int i = 0; i < table.root_count; ++i) {
-    const double one = chances.of(importance_of_root(frame, table.roots[i], P, N));
+    const double one = chances.of(i);
     if (!(one > 0)) continue;
     if (chosen >= 0) pick -= chance;  // the one before was not it
     chosen = i, chance = one;
@@ -129,7 +159,7 @@ inline double probability_of_emitter(const Frame& frame, std::int32_t emitter, c
   const EmitterTable& table = *frame.emitters;
   const Emitter& e = table.emitters[emitter];
   const EmitterRoot& root = table.roots[e.root];
-  const double chance = RootChances(frame, P, N).of(importance_of_root(frame, root, P, N));
+  const double chance = RootChances(frame, P, N, true).of(e.root);
   if (root.node < 0 || !(chance > 0)) return chance;
   return pick_probability(table.nodes, root.node, e.path, P, N, root.fading, frame.minimum_distance) * chance;
 }
@@ -447,9 +477,10 @@ inline EmitterSample sample_background(const Frame& frame, const Vec3<double>& N
 /// v in [0, 1).
 ///   N  the unit normal at P on which light is looked for: of what lies behind it nothing comes. Zero: light
 ///      counts from all around.
+///   goes_on  whether a path goes on from P, too, as the densities below suppose
 inline EmitterSample sample_emitters(const Frame& frame, const Vec3<double>& P, const Vec3<double>& N,
-                                     double pick, double u, double v) {
-  const PickedLight picked = detail::pick_emitter(frame, P, N, pick);
+                                     double pick, double u, double v, bool goes_on = true) {
+  const PickedLight picked = detail::pick_emitter(frame, P, N, pick, goes_on);
   if (picked.emitter < 0) return {};
   const Emitter& e = frame.emitters->emitters[picked.emitter];
   EmitterSample out = e.kind == EmitterKind::light     ? detail::sample_light(frame, e.light, P, u, v)

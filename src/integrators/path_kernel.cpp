@@ -85,14 +85,15 @@ template <bool Seen> struct Work : Wavefront {
     F x, y;
   };
   [[gnu::noinline]] Draw draw(const Lanes& at, Pair pair) const {
-    double x[lanes], y[lanes];
+    std::uint32_t number[lanes];
+    std::uint64_t seed[lanes];
     const auto dimension = std::uint64_t((depth - 1) * pairs_per_vertex + pair);
     for (int k = 0; k < lanes; ++k) {
       const std::uint32_t i = scratch.rays.sample[at.ray[k]];
-      const Vec2<double> point = random_point(numbers[i], hashed(seeds[i] + dimension));
-      x[k] = point.x, y[k] = point.y;
+      number[k] = numbers[i], seed[k] = hashed(seeds[i] + dimension);
     }
-    return {F::load(x), F::load(y)};
+    const Vec2<F> points = random_points(number, seed);
+    return {points.x, points.y};
   }
 
   // ---- what shines where a path gets to
@@ -231,10 +232,13 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   template <ScatterKind kind> void shade(const Lanes& at, const Hits& hits) {
-    const Draw choice = draw(at, choices), chance = draw(at, chances);
     const F opacity = hits.painted ? hits.painted->opacity : given(hits, [](const MaterialRecord& m) {
       return m.alpha == Alpha::mask ? 1.0 : m.opacity;
     });
+    // Drawn where something is left to chance.
+    const bool roulette = depth >= frame.path.roulette_depth && depth < frame.path.max_depth;
+    Draw chance{F(0), F(0)};
+    if (roulette || any(both(at.active, opacity < F(1)))) chance = draw(at, chances);
     const Truth solid = both(at.active, chance.y < opacity);
     const std::uint32_t passing = lane_bits(at.active) & ~lane_bits(solid);
     for (std::uint32_t left = passing; left; left &= left - 1) pass_on(at, hits, __builtin_ctz(left));
@@ -244,6 +248,7 @@ template <bool Seen> struct Work : Wavefront {
       if (frame.witness) tell_hits(at, hits, lane_bits(solid));
     }
     send_out(at, hits, lane_bits(solid));
+    const Draw choice = draw(at, choices);
     const ScatterSurface<F, C> s = surface_of<kind>(hits);
     const Scattering<kind, F, C> scattering(s);
     // Light is looked for on the side that the normal shows; on both where the surface lets some through.
@@ -283,7 +288,67 @@ template <bool Seen> struct Work : Wavefront {
   // One copy for all kinds of surfaces: a kernel takes long enough to compile.
   [[gnu::noinline]] EmitterSample light_at(const Vec3<double>& P, const Vec3<double>& N, double pick,
                                            double u, double v) const {
-    return sample_emitters(frame, P, N, pick, u, v);
+    return sample_emitters(frame, P, N, pick, u, v, depth < frame.path.max_depth);
+  }
+
+  /// A light that each lane of a packet looks for: as EmitterSample.
+  struct Searched {
+    Vec3<F> L;
+    F r, clear;
+    C brings;  ///< What f |N.L| is multiplied with.
+    F density;
+    int source[lanes];
+  };
+
+  /// One of all that shines.
+  [[gnu::noinline]] Searched search_all(const Lanes& at, const Hits& hits, const Vec3<F>& facing,
+                                        std::uint32_t asked, const F& pick) const {
+    double L[3][lanes] = {}, brings[color_channels][lanes] = {}, density[lanes] = {}, clear[lanes] = {};
+    double distance[lanes] = {};
+    Searched out;
+    const Draw point = draw(at, light_point);
+    for (; asked; asked &= asked - 1) {
+      const int k = __builtin_ctz(asked);
+      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
+                                       lane(point.x, k), lane(point.y, k));
+      L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
+      for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
+      density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, out.source[k] = e.light;
+    }
+    out.L = {F::load(L[0]), F::load(L[1]), F::load(L[2])};
+    for (int c = 0; c < color_channels; ++c) out.brings[c] = F::load(brings[c]);
+    out.r = F::load(distance), out.clear = F::load(clear), out.density = F::load(density);
+    return out;
+  }
+
+  /// The light with extent that is all that shines; -1: there is another, or more. Its choice is certain, and
+  /// a whole packet looks for it at once. Where it lights nothing search_all would not have asked: it is
+  /// black there all the same.
+  int only_light() const {
+    const EmitterTable& table = *frame.emitters;
+    if (table.root_count != 1 || table.roots[0].node < 0) return -1;
+    const LightNode& node = table.nodes[table.roots[0].node];
+    if (node.child >= 0) return -1;
+    const Emitter& e = table.emitters[node.emitter];
+    if (e.kind != EmitterKind::light) return -1;
+    const bool has_extent =
+        with_light(frame.lights[e.light], []<class Light>(const Light&) { return bool(HasExtent<Light>); });
+    return has_extent ? e.light : -1;
+  }
+  [[gnu::noinline]] Searched search_one(const Lanes& at, const Hits& hits, int number) const {
+    const Draw point = draw(at, light_point);
+    Searched out;
+    for (int k = 0; k < lanes; ++k) out.source[k] = number;
+    with_light(frame.lights[number], [&]<class Light>(const Light& light) {
+      if constexpr (HasExtent<Light>) {
+        const LightSample<F, C> s = sample(light, hits.P, point.x, point.y);
+        const Truth black = is_black(s.I);
+        out.L = s.L, out.r = s.r, out.clear = select(black, F(0), s.clear);
+        out.brings = select(black, C{}, (F(pi) / (s.r * s.r)) * s.I);
+        out.density = select(black, F(0), light.visible ? s.density : F(0));
+      }
+    });
+    return out;
   }
 
   template <class Material>
@@ -291,23 +356,14 @@ template <bool Seen> struct Work : Wavefront {
                                         const Vec3<F>& facing, const Truth& solid, const F& pick) {
     const Truth asked = both(solid, Truth(!scattering.only_perfect()));
     if (!any(asked)) return;
-    double L[3][lanes] = {}, brings[color_channels][lanes] = {}, density[lanes] = {}, clear[lanes] = {};
-    double distance[lanes] = {};
-    int source[lanes] = {};
-    const Draw point = draw(at, light_point);
-    for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
-      const int k = __builtin_ctz(left);
-      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
-                                       lane(point.x, k), lane(point.y, k));
-      L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
-      for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
-      density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, source[k] = e.light;
-    }
-    const Vec3<F> to_light{F::load(L[0]), F::load(L[1]), F::load(L[2])};
+    const int only = Seen ? -1 : only_light();
+    const Searched search =
+        only >= 0 ? search_one(at, hits, only) : search_all(at, hits, facing, lane_bits(asked), pick);
+    const Vec3<F>& to_light = search.L;
     const Evaluated<F, C> f = scattering.evaluate(to_light);
     C light;
-    for (int c = 0; c < color_channels; ++c) light[c] = f.value[c] * F::load(brings[c]);
-    const F found = F::load(density);
+    for (int c = 0; c < color_channels; ++c) light[c] = f.value[c] * search.brings[c];
+    const F& found = search.density;
     // The path's last ray: nothing will find the light in the other way.
     const F weight =
         depth < frame.path.max_depth ? select(found > F(0), weight_against(found, f.density), F(1)) : F(1);
@@ -317,7 +373,7 @@ template <bool Seen> struct Work : Wavefront {
     F share(1);
     if (any(lit)) {
       const Vec3<F> start = select(dot(to_light, hits.G) > F(0), hits.front, hits.back);
-      open = shadows(shadow_rays(start, hits.P, to_light, F::load(clear)), lit, share);
+      open = shadows(shadow_rays(start, hits.P, to_light, search.clear), lit, share);
       light = share * light;
     }
     for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
@@ -332,22 +388,15 @@ template <bool Seen> struct Work : Wavefront {
       }
       if constexpr (Seen) {
         if (frame.witness)
-          frame.witness->search(frame.witness->self, {scratch.rays.number[at.ray[k]],
-                                                      source[k],
-                                                      lane_vector(to_light, k),
-                                                      distance[k],
-                                                      {brings[0][k], brings[1][k], brings[2][k]},
-                                                      density[k],
-                                                      lane_color(f.value, k),
-                                                      lane(f.density, k),
-                                                      lane(weight, k),
-                                                      bool(lane_bits(lit) >> k & 1),
-                                                      reached,
-                                                      lane(share, k),
-                                                      one});
+          frame.witness->search(
+              frame.witness->self,
+              {scratch.rays.number[at.ray[k]], search.source[k], lane_vector(to_light, k), lane(search.r, k),
+               lane_color(search.brings, k), lane(found, k), lane_color(f.value, k), lane(f.density, k),
+               lane(weight, k), bool(lane_bits(lit) >> k & 1), reached, lane(share, k), one});
         if (reached && task.layer_sums)
-          add_to_layer(at.ray[k], depth == 1 ? LayerPlan::direct(source[k]) : LayerPlan::indirect(source[k]),
-                       one);
+          add_to_layer(
+              at.ray[k],
+              depth == 1 ? LayerPlan::direct(search.source[k]) : LayerPlan::indirect(search.source[k]), one);
       }
     }
   }

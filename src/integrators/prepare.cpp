@@ -247,6 +247,14 @@ namespace {
 /// Whether the shutter's time is seen slice by slice. A view shows what is there in the middle of it.
 bool is_in_slices(const Scene& scene) { return is_moving(scene) && scene.integrator != Integrator::view; }
 
+/// Paths of another seed go through other places of the pixels, so that of many seeds' pictures the mean is
+/// right at edges, too.
+Vec2<double> shift_of(const Scene& scene) {
+  if (scene.integrator != Integrator::path || scene.path.seed == 0) return {};
+  const std::uint64_t bits = hashed(std::uint64_t(scene.path.seed));
+  return {double(bits >> 32) * 0x1p-32, double(std::uint32_t(bits)) * 0x1p-32};
+}
+
 /// Where the samples of each pixel lie.
 std::vector<Vec2<double>> pattern_of(const Scene& scene) {
   const ImageSettings& image = scene.image;
@@ -255,11 +263,11 @@ std::vector<Vec2<double>> pattern_of(const Scene& scene) {
   if (is_progressive(scene)) {
     int most = std::max(scene.path.max_samples, image.samples);
     if (in_slices) most -= most % std::min(image.samples, image.shutter_slices);  // as many for each
-    return progressive_pattern(most, image.samples, image.filter);
+    return progressive_pattern(most, image.samples, image.filter, shift_of(scene));
   }
   if (image.adaptive) return progressive_pattern(image.adaptive->max, image.adaptive->start, image.filter);
-  return in_slices ? progressive_pattern(image.samples, image.samples, image.filter)
-                   : sample_pattern(image.samples, image.filter);
+  return in_slices ? progressive_pattern(image.samples, image.samples, image.filter, shift_of(scene))
+                   : sample_pattern(image.samples, image.filter, shift_of(scene));
 }
 
 Shutter shutter_of(const Scene& scene, const std::vector<Vec2<double>>& pattern) {

@@ -46,6 +46,29 @@ TEST(Pattern, EveryDyadicBoxHoldsOneSampleWhereTheCountIsAPowerOfTwo) {
     }
 }
 
+// Of an edge at x = c the left part of the pixel is seen. Over all shifts the share of the samples there has
+// the mean c, and each is off by 1 / n at the most.
+TEST(Pattern, OfAllShiftsTheMeanIsRightAtEdges) {
+  constexpr int n = 8, shifts = 512;
+  for (const double c : {0.01, 0.3, 0.77}) {
+    double mean = 0;
+    for (int i = 0; i < shifts; ++i) {
+      const Vec2<double> shift{(i + 0.5) / shifts, 1 - (i + 0.5) / shifts};
+      for (const auto& points :
+           {sample_pattern(n, Filter::box, shift), progressive_pattern(n, n, Filter::box, shift)}) {
+        double seen = 0;
+        for (const auto& point : points) {
+          ASSERT_TRUE(point.x >= 0 && point.x < 1 && point.y >= 0 && point.y < 1);
+          seen += point.x < c ? 1.0 / n : 0;
+        }
+        EXPECT_LE(std::abs(seen - c), 1.0 / n + 1e-12);
+        mean += seen / (2 * shifts);
+      }
+    }
+    EXPECT_NEAR(mean, c, 1.0 / shifts);
+  }
+}
+
 TEST(Pattern, EveryBeginningOfAProgressivePatternIsSpreadEvenly) {
   // The first 4^k points are a net: every dyadic box of that area holds one, moved by a whole or half cell.
   const int start = 4;

@@ -173,6 +173,30 @@ TEST(Emitters, ABackgroundOfOneColourGivesPiTimesIt) {
   EXPECT_EQ(Prepared("background: 0\n").emitters->table.root_count, 0);
 }
 
+// Of the background B = 0.2 pi counts (B / 2 - S) / 2, S = pi N.L the sun, and its chance is 3/4 of its share
+// and an even part of the last quarter. The densities below are those along N, 1 / pi times the chance.
+TEST(Emitters, ABackgroundOfOneColourIsLeftToPathsThatGoOnWhereOthersLight) {
+  const Prepared p("background: 0.2\nlights: [{directional: {direction: [0, -1, 0]}}]\n");
+  const V P{0, 0, 0}, up{0, 1, 0}, down{0, -1, 0}, aside{std::sqrt(1 - 0.05 * 0.05), 0.05, 0};
+  EXPECT_EQ(background_density(*p, P, up, up), 0);
+  EXPECT_NEAR(background_density(*p, P, down, down), 1 / M_PI, 1e-12);
+  const double chance = 0.75 * (0.025 / (0.025 + 0.05)) + 0.125;
+  EXPECT_NEAR(background_density(*p, P, aside, aside), chance / M_PI, 1e-12);
+  for (int i = 0; i < 64; ++i) {
+    const double u = (i + 0.5) / 64;
+    EXPECT_EQ(sample_emitters(*p, P, up, u, u, u).light, 0) << "the sun alone";
+  }
+  // Where the path ends nothing else finds the sky.
+  Points points;
+  Mean mean;
+  for (int i = 0; i < 1 << 14; ++i) {
+    const V at = points.next();
+    const EmitterSample s = sample_emitters(*p, P, up, at.x, at.y, at.z, false);
+    mean.add(s.radiance_over_density[0] * std::max(dot(up, s.L), 0.0));
+  }
+  EXPECT_NEAR(mean.mean(), M_PI * 1.2, 4 * mean.error());
+}
+
 TEST(Emitters, NothingThatShinesGivesNothing) {
   const Prepared p("objects: [{sphere: {center: [0, 0, 0], radius: 1}}]\n");
   const EmitterSample s = sample_emitters(*p, {0, 2, 0}, {0, 1, 0}, 0.5, 0.5, 0.5);

@@ -348,6 +348,33 @@ TEST(Path, LayersAddUpExactlyAndTellLightsApart) {
 }
 
 // Every kind of scene: nothing negative, nothing infinite, explained to the bit.
+// A lamp that is all that shines is looked for a packet at a time; where layers are asked for, point by point
+// as all others.
+TEST(SameBits, OfALoneLampForPacketsAndPoints) {
+  for (const std::string lamp :
+       {"rectangle: {center: [0, 2, 0.5], u: [0.6, 0, 0], v: [0, 0, 0.6]}",
+        "rectangle: {center: [0, 0.8, 0.5], u: [0.6, 0, 0], v: [0, 0.2, 0.6], two_sided: true}",
+        "disc: {center: [0, 2, 0], normal: [0.2, -1, 0], radius: 0.3}",
+        "sphere: {center: [0.3, 1.8, 0.5], radius: 0.4}",
+        "sphere: {center: [0.3, 0.5, 0.5], radius: 0.4, visible: false}"}) {
+    const std::string scene =
+        "lambent: 1\ncamera: {eye: [0, 1, 4], target: [0, 0.5, 0]}\n"
+        "image: {size: [24, 24], samples: 4}\nintegrator: {path: {max_depth: 6}}\n"
+        "lights: [{" +
+        lamp + "}]\n" +
+        "objects:\n"
+        "  - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, material: {diffuse: 0.6, specular: 0.3}}\n"
+        "  - {sphere: {center: [-0.6, 0.5, 0], radius: 0.5}, material: {glass: bk7, roughness: 0.4}}\n"
+        "  - {sphere: {center: [0.6, 0.5, 0], radius: 0.5}, material: {metal: gold, roughness: 0.4}}\n";
+    const Image packets = shown(scene).image, points = shown(scene, {{"film.layers", "true"}}).image;
+    ASSERT_EQ(points.channels[0], "R");
+    for (int y = 0; y < packets.height; ++y)
+      for (int x = 0; x < packets.width; ++x)
+        for (int c = 0; c < 3; ++c)
+          ASSERT_EQ(packets.pixel(x, y)[c], points.pixel(x, y)[c]) << lamp << " " << x << "," << y;
+  }
+}
+
 TEST(Path, OfRandomScenesIsFiniteAndExplained) {
   for (unsigned seed = 500; seed < 530; ++seed) {
     const std::string yaml = random_scene(seed, 12, 9, "2");

@@ -22,6 +22,24 @@ TEST(RandomPoints, HaveOneInEveryDyadicBoxOfTheirNumber) {
       }
 }
 
+TEST(RandomPoints, OfPacketsHaveTheBitsOfSingleOnes) {
+  constexpr int lanes = native_float_lanes;
+  for (std::uint64_t round = 0; round < 100; ++round) {
+    std::uint32_t index[lanes];
+    std::uint64_t seed[lanes];
+    for (int k = 0; k < lanes; ++k) {
+      seed[k] = hashed(round * lanes + std::uint64_t(k));
+      index[k] = std::uint32_t(hashed(seed[k]) >> (round % 32));
+    }
+    const Vec2<Pack<double, lanes>> points = random_points(index, seed);
+    for (int k = 0; k < lanes; ++k) {
+      const Vec2<double> one = random_point(index[k], seed[k]);
+      EXPECT_EQ(lane(points.x, k), one.x);
+      EXPECT_EQ(lane(points.y, k), one.y);
+    }
+  }
+}
+
 // Points of two seeds have nothing to do with each other: the covariance of their coordinates is that of
 // independent numbers, 0, with a standard deviation of 1 / (12 sqrt n).
 TEST(RandomPoints, OfDifferentSeedsAreIndependent) {
