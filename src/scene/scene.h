@@ -260,7 +260,7 @@ inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
      &PathSettings::seed,
      {0, 1e9},
      "",
-     "Another number makes another picture of the same: other noise."},
+     "Another number makes another picture of the same: other noise, and other places in the pixels."},
 };
 
 /// Wavelengths in the place of red, green and blue; rays are followed as WhittedSettings say.
