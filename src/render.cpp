@@ -54,7 +54,20 @@ std::vector<std::string> available_isas() {
 
 RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   const Kernel& kernel = choose_kernel(options.isa);
+  const bool is_view = scene->integrator == Integrator::view;
+  if (is_view && options.guides) {
+    Diagnostic diagnostic;
+    diagnostic.message = "a view has no noise that could be taken away";
+    diagnostic.hint = "denoising is for integrators that choose by chance: --integrator path";
+    throw InputError(diagnostic);
+  }
   const int threads = thread_count(options.threads);
+  if (options.time_limit > 0 && !is_progressive(*scene)) {
+    Diagnostic diagnostic;
+    diagnostic.message = "a limit in time is for pictures whose samples go on";
+    diagnostic.hint = "integrator: {path: {progressive: true}} is one";
+    throw InputError(diagnostic);
+  }
   Clock clock;
   RenderResult result;
   Stats& stats = result.stats;
@@ -66,11 +79,12 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   std::optional<LayerBook> book;
   if (scene->film.layers) book.emplace(*scene, frame.layers, frame.samples);
   Film film(scene->image, book ? &*book : nullptr);
-  stats.bytes.film = film.values.size() * sizeof(float);
+  if (options.guides) film.guides.resize(std::size_t(film.width) * std::size_t(film.height));
+  stats.bytes.film = film.values.size() * sizeof(float) + film.guides.size() * sizeof(GuideSums);
   const double pixels = double(film.width) * film.height;
-  const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress};
+  const TileOptions tile_options{threads, std::max(1, options.tile_size), options.progress,
+                                 options.time_limit};
   ViewRun view;
-  const bool is_view = scene->integrator == Integrator::view;
   if (is_view)
     view = render_view(frame, kernel, view_record(*scene, scene->view), view_samples(scene->image, frame),
                        film, tile_options);
@@ -82,6 +96,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
                                      : render_tiles(frame, kernel, film, tile_options);
   stats.seconds.render = clock.lap();
 
+  if (options.guides) result.guides = develop_guides(film, scene->image);
   result.image = develop(std::move(film), scene->image);
   result.metadata = settings_metadata(*scene);
   if (book) result.metadata.insert(result.metadata.end(), book->metadata().begin(), book->metadata().end());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <mutex>
@@ -125,6 +126,10 @@ class Crew {
 
 }  // namespace
 
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
 }
@@ -139,7 +144,8 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
     tiles.list_pixels_of(i, worker.pixels);
-    const std::size_t at_a_time = film.layers ? pixels_with_hits(frame.samples) : worker.pixels.size();
+    const bool noting = film.layers || !film.guides.empty();
+    const std::size_t at_a_time = noting ? pixels_with_hits(frame.samples) : worker.pixels.size();
     for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
       const Pixel* pixels = &worker.pixels[first];
       const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
@@ -147,8 +153,10 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
       PixelTask task{pixels, std::uint32_t(count), 0, frame.samples, worker.sums.data(), nullptr};
       if (film.layers) {
         worker.layer_sums.assign(count * columns, 0);
-        worker.first_hits.resize(count * distances.size());
         task.layer_sums = worker.layer_sums.data();
+      }
+      if (noting) {
+        worker.first_hits.resize(count * distances.size());
         task.first_hits = worker.first_hits.data();
       }
       if (noisy) {
@@ -162,6 +170,9 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
         float* to = film.pixel(pixels[p].x, pixels[p].y);
         for (int c = 0; c < color_channels; ++c)
           to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
+        if (!film.guides.empty())
+          film.guides[film.index(pixels[p].x, pixels[p].y)].add(&worker.first_hits[p * distances.size()],
+                                                                distances.size());
         if (!film.layers) continue;
         worker.hits.clear();
         for (std::size_t s = 0; s < distances.size(); ++s)
@@ -201,8 +212,9 @@ class Goes {
   /// The frame's samples from `first` up to `end`, in its order, of all wanted pixels. The progress goes from
   /// `from` to `to`.
   void go(const Frame& frame, int first, int end, double from, double to, TileRun& run) {
-    const std::int64_t at_a_time = film_.layers ? std::int64_t(pixels_with_hits(end - first))
-                                                : std::int64_t(options_.tile_size) * options_.tile_size;
+    const bool noting = film_.layers || !film_.guides.empty();
+    const std::int64_t at_a_time = noting ? std::int64_t(pixels_with_hits(end - first))
+                                          : std::int64_t(options_.tile_size) * options_.tile_size;
     const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
     Crew(options_, run).share(tasks, from, to, [&](std::int64_t i, Worker& worker) {
       const std::int64_t begin = i * at_a_time;
@@ -244,16 +256,21 @@ class Goes {
                    end,    worker.sums.data(),   worker.least_and_greatest.data()};
     if (frame.tracing == Tracing::path) task.squares = worker.squares.data();
     const auto taken = std::size_t(end - first);
+    if (film_.layers || !film_.guides.empty()) {
+      worker.first_hits.resize(count * taken);
+      task.first_hits = worker.first_hits.data();
+    }
     if (film_.layers) {
       worker.layer_sums.resize(count * columns_);
-      worker.first_hits.resize(count * taken);
       task.layer_sums = worker.layer_sums.data();
-      task.first_hits = worker.first_hits.data();
       for (std::size_t p = 0; p < count; ++p)
         std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns_,
                     &worker.layer_sums[p * columns_]);
     }
     kernel_.render(frame, task, worker.scratch, worker.counts);
+    if (!film_.guides.empty())
+      for (std::size_t p = 0; p < count; ++p)
+        film_.guides[film_.index(pixels[p].x, pixels[p].y)].add(&worker.first_hits[p * taken], taken);
     if (film_.layers)
       for (std::size_t p = 0; p < count; ++p) {
         const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
@@ -313,20 +330,33 @@ TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSetti
 TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSettings& settings,
                      const ImageSettings& image, Film& film, const TileOptions& options) {
   TileRun run;
+  const double begun = options.seconds();
   Goes goes(exposure.at(0).frame, kernel, image, film, options);
   const std::vector<Slice>& slices = exposure.slices();
   const auto count = int(slices.size());
-  const int max = exposure.at(0).frame.samples;
   // As many samples for each slice.
+  const int max =
+      std::max(std::min(exposure.at(0).frame.samples, settings.max_samples) / count * count, count);
   const auto rounded = [&](double samples) {
     return int(std::min(std::ceil(samples / count) * count, double(max)));
   };
-  int first = 0, end = rounded(image.samples);
+  const int start = rounded(image.samples);
+  const bool limited = options.time_limit > 0;
+  // How long a sample takes is not known at first. But of what moves, a pass of few samples costs as many
+  // trees as one of many.
+  int first = 0, end = limited && count == 1 ? 1 : start;
+  double before = begun, seconds_each = 0;
+  bool is_last = false;
   for (double progress = 0; !run.cancelled;) {
+    double done = double(end) / max;
     // Noise falls with the square root of the samples, so this is about how much is done by then.
-    const double estimate =
-        run.noise > 0 ? std::min(1.0, double(end) / samples_expected(run, settings, max)) : 0.5;
-    const double from = progress, to = std::max(progress, estimate);
+    if (settings.until > 0)
+      done = std::max(
+          done, run.noise > 0 ? std::min(1.0, double(end) / samples_expected(run, settings, max)) : 0.5);
+    if (limited)
+      done =
+          std::max(done, std::min(1.0, (before - begun + seconds_each * (end - first)) / options.time_limit));
+    const double from = progress, to = std::max(progress, done);
     for (int k = 0; k < count && !run.cancelled; ++k) {
       const int begin = slices[std::size_t(k)].first;
       run.portions.push_back({k, begin + first / count, begin + end / count});
@@ -336,11 +366,27 @@ TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSetting
     progress = to;
     run.samples = end;
     run.noise = goes.samples.noise();
-    if (run.noise <= settings.until || end == max) break;
-    first = end;
+    const bool is_good = settings.until > 0 && end >= start && run.noise <= settings.until;
+    if (is_good || is_last || end == max) break;
     // No more than three times as many again: the estimate of the noise is rough where samples are few.
-    end = rounded(
-        std::clamp(samples_expected(run, settings, max), end + 1.0, std::min(4.0 * end, double(max))));
+    const double wanted = end < start          ? std::min(2.0 * end, double(start))
+                          : settings.until > 0 ? std::clamp(samples_expected(run, settings, max), end + 1.0,
+                                                            std::min(4.0 * end, double(max)))
+                                               : 2.0 * end;
+    int next = rounded(wanted);
+    if (limited) {
+      const double now = options.seconds(), left = options.time_limit - (now - begun);
+      seconds_each = (now - before) / (end - first);
+      before = now;
+      const double at_most = end + std::floor(left / seconds_each / count) * count;
+      if (!(left > 0) || at_most <= end) break;
+      if (at_most < next) {
+        next = int(at_most);
+        is_last = count > 1;  // passes that end elsewhere would add up the slices in another order
+      }
+    }
+    first = end;
+    end = next;
   }
   goes.samples.develop(film);
   return run;

@@ -10,15 +10,20 @@ namespace lambent {
 struct TileRun {
   RayCounts counts;
   bool cancelled = false;
-  int samples = 0;           ///< Of each pixel, where all have the same.
-  double noise = 0;          ///< Of paths: NoiseSum's. Otherwise 0.
+  int samples = 0;                ///< Of each pixel, where all have the same.
+  double noise = 0;               ///< Of paths: NoiseSum's. Otherwise 0.
   std::vector<Portion> portions;  ///< Of render_until: which samples each pixel got, in their order.
 };
+
+/// Seconds since some moment in the past.
+double steady_seconds();
 
 struct TileOptions {
   int threads = 1;
   int tile_size = 32;                    ///< Pixels; at least 1.
   std::function<bool(double)> progress;  ///< As in RenderOptions.
+  double time_limit = 0;                 ///< Of render_until, in seconds, as in RenderOptions; 0: none.
+  std::function<double()> seconds = steady_seconds;  ///< The clock for it.
 };
 
 /// As many threads as are wanted; 0: as many as there are processors.
@@ -37,9 +42,12 @@ TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSetti
 TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageSettings& settings, Film& film,
                           const TileOptions& options, std::vector<int>* samples = nullptr);
 
-/// The same with samples until the picture's noise is no more than `settings.until`: `start` samples of every
-/// pixel, then more, as many as the noise lets one expect. Where something moves, each slice of the shutter's
-/// time gets as many of them.
+/// The same in passes, until the picture's noise is no more than `settings.until`, where that is above 0,
+/// each pixel has `settings.max_samples`, or the time is spent. The first pass has `image.samples`, the next
+/// as many as the noise lets one expect to be needed, or as many again. With a limit in time they begin with
+/// a single sample, and no pass is begun that would go beyond the limit by what a sample took in the last.
+/// Where something moves, each slice of the shutter's time gets as many samples. A pixel depends on how many
+/// it got; where something moves, in its last digits also on where the passes ended, which the number tells.
 TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSettings& settings,
                      const ImageSettings& image, Film& film, const TileOptions& options);
 

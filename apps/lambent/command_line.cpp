@@ -88,6 +88,7 @@ struct Shorthands {
   LoadOptions load;
   Settings settings;
   std::vector<std::string> set;
+  double time_limit = 0;  ///< Seconds; 0: none.
 };
 
 void add_input(CLI::App* command, std::string& input) {
@@ -230,6 +231,31 @@ void add_model_options(CLI::App* command, LoadOptions& load) {
       ->group(group);
 }
 
+/// "0.01", "30s", "256spp": when path tracing ends.
+void go_on_until(const std::string& text, Shorthands& shorthands) {
+  double number = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string unit(stop, text.data() + text.size());
+  const auto set = [&](const char* key, const std::string& value) {
+    shorthands.settings.emplace_back(std::string("integrator.path.") + key, value);
+  };
+  constexpr int most_samples = 1 << 20;
+  const double factor = unit == "s" ? 1 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
+  if (error != std::errc() || !(number > 0) || !std::isfinite(number)) {
+  } else if (unit.empty() && number <= 1) {
+    return set("until", text);
+  } else if (factor > 0) {
+    shorthands.time_limit = number * factor;
+    return set("progressive", "true");
+  } else if (unit == "spp" && number == std::floor(number) && number <= most_samples) {
+    set("max_samples", fmt::format("{:.0f}", number));
+    return set("progressive", "true");
+  }
+  throw usage_error(
+      fmt::format("--until wants a share of noise, a time or a number of samples, not '{}'", text),
+      "for example 0.01 (the noise is 1 %), 30s, 5min, 2h, or 256spp (samples per pixel)");
+}
+
 /// What may be said of the scene on the command line, of every command that renders.
 void add_scene_options(CLI::App* command, Shorthands& shorthands) {
   const auto shorthand = [&shorthands](const std::string& key, std::string (*as_yaml)(const std::string&)) {
@@ -252,10 +278,16 @@ void add_scene_options(CLI::App* command, Shorthands& shorthands) {
                    "Who makes the picture: whitted, path, ...\n('lambent list integrators')")
       ->type_name("NAME");
   command
-      ->add_option_function<std::string>(
-          "--until", shorthand("integrator.path.until", [](const std::string& text) { return text; }),
-          "Path tracing until the noise is that share of\nthe picture: 0.01 is 1 %")
-      ->type_name("SHARE");
+      ->add_option_function<std::vector<std::string>>(
+          "--until",
+          [&shorthands](const std::vector<std::string>& limits) {
+            for (const std::string& limit : limits) go_on_until(limit, shorthands);
+          },
+          "Path tracing until the noise is that share of\nthe picture (0.01 is 1 %), for a time (30s, "
+          "5min),\n"
+          "or to so many samples (256spp); may be repeated:\nwhichever comes first")
+      ->type_name("LIMIT")
+      ->allow_extra_args(false);
   add_set(command, shorthands);
   add_model_options(command, shorthands.load);
   add_reading_options(command, shorthands.load);
@@ -301,6 +333,9 @@ CLI::App* add_render(CLI::App& program, RenderCommand& render, Shorthands& short
   command->add_flag_function(
       "--layers", layers,
       "Write to the EXR what the colours are made of,\nterm by term and light by light, too");
+  command->add_flag(
+      "--denoise", render.denoise,
+      "Take the noise away, by Open Image Denoise: what\na PNG shows; in an EXR the layer 'denoised'");
   command
       ->add_option("--stats", render.stats,
                    "Write as JSON what went where: rays by kind,\nseconds by stage, bytes by what they "
@@ -614,9 +649,14 @@ Command parse_command_line(int argc, const char* const* argv) {
 
   if (*is_render) {
     render.load = options_of(shorthands);
+    render.time_limit = shorthands.time_limit;
     return render;
   }
   if (*is_explain) {
+    if (shorthands.time_limit > 0)
+      throw usage_error(
+          "a time is no limit for 'explain': which samples a pixel has then is chance",
+          "'lambent render --stats -' tells how many they were; then --until 256spp, for example");
     explain.load = options_of(shorthands);
     return explain;
   }

@@ -27,6 +27,8 @@ struct RenderCommand {
   int threads = 0;
   int tile = 32;
   int bits = 8;
+  double time_limit = 0;  ///< Of each picture, in seconds; 0: none.
+  bool denoise = false;
   bool quiet = false;
 };
 

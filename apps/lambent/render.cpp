@@ -4,11 +4,13 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "commands.h"
 #include "console.h"
 #include "files.h"
 #include "interrupt.h"
+#include "lambent/denoise.h"
 #include "lambent/lambent.h"
 #include "numbered.h"
 #include "progress.h"
@@ -52,6 +54,7 @@ void add(Stats& sum, const Stats& one, int frames_before) {
   sum.seconds.build += seconds.build;
   sum.seconds.render += seconds.render;
   sum.seconds.develop += seconds.develop;
+  sum.seconds.denoise = seconds.denoise;
   sum.seconds.write = seconds.write;
   sum.noise = std::max(sum.noise, one.noise);
   sum.samples_per_pixel = (samples + one.samples_per_pixel) / (frames_before + 1);
@@ -65,11 +68,9 @@ std::string stats_as_json(const Stats& stats) {
                   {"refraction", stats.rays.refraction},
                   {"shadow", stats.rays.shadow},
                   {"ambient", stats.rays.ambient}};
-  json["seconds"] = {{"parse", stats.seconds.parse},
-                     {"build", stats.seconds.build},
-                     {"render", stats.seconds.render},
-                     {"develop", stats.seconds.develop},
-                     {"write", stats.seconds.write}};
+  json["seconds"] = {{"parse", stats.seconds.parse},     {"build", stats.seconds.build},
+                     {"render", stats.seconds.render},   {"develop", stats.seconds.develop},
+                     {"denoise", stats.seconds.denoise}, {"write", stats.seconds.write}};
   json["scene"] = {{"primitives", stats.scene.primitives},
                    {"instances", stats.scene.instances},
                    {"trees", stats.scene.trees},
@@ -103,6 +104,23 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+/// The picture with the denoised one as one more layer: R, G and B stay what was rendered, and what layers
+/// add up to.
+Image with_layer(const Image& picture, const Image& denoised) {
+  Image image;
+  image.width = picture.width, image.height = picture.height;
+  image.channels = picture.channels;
+  for (const char* name : {"denoised.R", "denoised.G", "denoised.B"}) image.channels.emplace_back(name);
+  image.data.reserve(picture.data.size() + denoised.data.size());
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const float *from = picture.pixel(x, y), *more = denoised.pixel(x, y);
+      image.data.insert(image.data.end(), from, from + picture.channels.size());
+      image.data.insert(image.data.end(), more, more + denoised.channels.size());
+    }
+  return image;
+}
+
 }  // namespace
 
 ExitCode run(const RenderCommand& command) {
@@ -133,6 +151,8 @@ ExitCode run(const RenderCommand& command) {
   if (wants_layers(scene) && std::none_of(outputs[0].begin(), outputs[0].end(),
                                           [](const std::string& output) { return ending(output) == ".exr"; }))
     throw usage_error("layers need an EXR; a PNG holds colours alone", "for example -o layers.exr");
+  std::optional<Denoiser> denoiser;
+  if (command.denoise) denoiser.emplace(command.threads);
   if (!command.quiet) report(warnings(scene), most_warnings);
 
   const Interruptible interruptible;
@@ -142,13 +162,23 @@ ExitCode run(const RenderCommand& command) {
   options.threads = command.threads;
   options.tile_size = command.tile;
   options.isa = command.isa;
+  options.time_limit = command.time_limit;
+  options.guides = command.denoise;
   options.progress = [&](double share) {
     progress.update((frame + share) / frames);
     return !interrupted();
   };
   std::string size;
   for (; frame < frames; ++frame) {
-    const RenderResult result = render(turned(scene, 360.0 * frame / frames), options);
+    RenderResult result = render(turned(scene, 360.0 * frame / frames), options);
+    Image denoised;
+    if (denoiser && !result.cancelled) {
+      const Stopwatch denoising;
+      denoised = denoiser->denoise(result.image, result.guides);
+      result.image = with_layer(result.image, denoised);
+      result.metadata.emplace_back("lambent:denoised", "Open Image Denoise " + denoiser->version());
+      stats.seconds.denoise += denoising.seconds();
+    }
     if (result.cancelled || interrupted()) {
       progress.finish();
       throw Failure(frame == 0 ? "interrupted; no file was written"
@@ -156,7 +186,8 @@ ExitCode run(const RenderCommand& command) {
     }
     const Stopwatch writing;
     for (const std::string& output : outputs[std::size_t(frame)])
-      write_image(output, result.image, result.metadata, {command.bits, result.write.png_encoded});
+      write_image(output, denoiser && ending(output) == ".png" ? denoised : result.image, result.metadata,
+                  {command.bits, result.write.png_encoded});
     add(stats, result.stats, frame);
     stats.seconds.write += writing.seconds();
     size = fmt::format("{} x {}", result.image.width, result.image.height);

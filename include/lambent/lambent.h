@@ -137,13 +137,14 @@ struct Stats {
   struct {
     std::uint64_t eye = 0, eye_hits = 0, reflection = 0, refraction = 0, shadow = 0, ambient = 0;
   } rays;
-  /// By stage. render() fills build, render and develop; who loads the scene and writes the picture knows the
-  /// others.
+  /// By stage. render() fills build, render and develop; who loads the scene, denoises the picture and writes
+  /// it knows the others.
   struct {
     double parse = 0;    ///< Read the scene and its models.
     double build = 0;    ///< Take it into the world; build the trees.
     double render = 0;   ///< From the first ray to the last.
     double develop = 0;  ///< Make the picture of the film.
+    double denoise = 0;  ///< Take its noise away.
     double write = 0;    ///< Encode the picture and write it.
   } seconds;
   /// What the frame consists of.
@@ -182,11 +183,20 @@ struct RenderOptions {
   /// Called now and then, from one thread at a time, with the share that is done, 0 to 1; false stops the
   /// work.
   std::function<bool(double)> progress;
+  /// Of pictures whose samples go on (`path` with `until` or `progressive`): seconds, from the first ray on,
+  /// after which none is begun any more; 0: no limit. How many samples there are then is a matter of the
+  /// machine; that many, and no limit, are the same picture: Stats::samples_per_pixel as `max_samples`.
+  double time_limit = 0;
+  /// Whether the result has guides for a denoiser (lambent/denoise.h). The picture does not depend on it.
+  bool guides = false;
 };
 
 struct RenderResult {
   Image image;  ///< R, G, B, linear; and the layers where the scene's film.layers says so (docs/layers.md).
                 ///< Incomplete where `cancelled`.
+  /// Where RenderOptions::guides asks for them: albedo.R, .G, .B (Kd) and N.X, .Y, .Z (the normal in the
+  /// world, on the eye's side) of what each pixel's samples met first, the mean over these. Otherwise empty.
+  Image guides;
   Metadata metadata;   ///< The settings that made it; nothing that changes from run to run.
   WriteOptions write;  ///< How the scene wants it written.
   Stats stats;
@@ -194,7 +204,8 @@ struct RenderResult {
 };
 
 /// The picture is a function of the scene alone: the same bits for any number of threads, tile size and
-/// instruction set. Throws InputError for an unknown `isa` or one that this machine lacks.
+/// instruction set. Throws InputError for an unknown `isa` or one that this machine lacks, where the guides
+/// of a view are asked for, which has no noise, and for a limit in time where samples do not go on.
 RenderResult render(const ScenePtr& scene, const RenderOptions& options = {});
 
 /// The instruction sets that `isa` accepts on this machine, the best first.

@@ -1,8 +1,15 @@
 #include "film/film.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lambent {
+
+void GuideSums::add(const FirstHit* hits, std::size_t count) {
+  for (std::size_t s = 0; s < count; ++s)
+    for (int c = 0; c < 3; ++c) albedo[c] += hits[s].albedo[c], normal[c] += hits[s].N[c];
+  samples += std::uint32_t(count);
+}
 
 Film::Film(const ImageSettings& settings, const LayerBook* book)
     : width(settings.width + (settings.pattern == Pattern::corners)),
@@ -29,6 +36,29 @@ Image develop(Film film, const ImageSettings& settings) {
       for (int c = 0; c < color_channels; ++c)
         pixel[c] = float((double(corners[0][c]) + corners[1][c] + corners[2][c] + corners[3][c]) / 4);
       if (film.layers) film.layers->merge(corners, pixel);
+    }
+  return image;
+}
+
+Image develop_guides(const Film& film, const ImageSettings& settings) {
+  Image image;
+  image.width = settings.width;
+  image.height = settings.height;
+  image.channels = {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z"};
+  image.data.reserve(std::size_t(image.width) * std::size_t(image.height) * image.channels.size());
+  const int reach = settings.pattern == Pattern::corners ? 1 : 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      GuideSums sum;
+      for (int j = y; j <= y + reach; ++j)
+        for (int i = x; i <= x + reach; ++i) {
+          const GuideSums& one = film.guides[film.index(i, j)];
+          for (int c = 0; c < 3; ++c) sum.albedo[c] += one.albedo[c], sum.normal[c] += one.normal[c];
+          sum.samples += one.samples;
+        }
+      const double samples = std::max(1u, sum.samples);
+      for (const double a : sum.albedo) image.data.push_back(float(a / samples));
+      for (const double n : sum.normal) image.data.push_back(float(n / samples));
     }
   return image;
 }

@@ -225,6 +225,7 @@ struct PathSettings {
   int roulette_depth = 5;
   double clamp = 0;
   double until = 0;
+  bool progressive = false;
   int max_samples = 65536;
   int seed = 0;
 };
@@ -251,11 +252,18 @@ inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
     {"until", &PathSettings::until, zero_to_one, "",
      "Go on, `image.samples` at first, until the noise is no more than this share of the picture's mean "
      "luminance (one standard deviation, root mean square over the pixels); 0: `image.samples` and no more."},
+    {"progressive",
+     &PathSettings::progressive,
+     {},
+     "",
+     "Go on, `image.samples` at first, to `max_samples`, or as long as `lambent render --until 30s` says. "
+     "`until` "
+     "is so anyway."},
     {"max_samples",
      &PathSettings::max_samples,
      {1, 1 << 20},
      "",
-     "With `until`: the most samples of a pixel, whatever noise is left."},
+     "With `until` or `progressive`: the most samples of a pixel, whatever noise is left."},
     {"seed",
      &PathSettings::seed,
      {0, 1e9},
@@ -555,9 +563,9 @@ struct Scene {
 /// Whether something moves while the shutter is open.
 bool is_moving(const Scene& scene);
 
-/// Whether samples are taken until the noise is low enough.
+/// Whether samples are taken in passes, until the noise is low enough, the time is spent or there are enough.
 inline bool is_progressive(const Scene& scene) {
-  return scene.integrator == Integrator::path && scene.path.until > 0;
+  return scene.integrator == Integrator::path && (scene.path.until > 0 || scene.path.progressive);
 }
 
 /// The model by which a material is lit, a number that it gives that model, and how light fades under a

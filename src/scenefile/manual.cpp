@@ -234,8 +234,14 @@ that shine, and from all other surfaces. `lambent render scene.yaml --integrator
   What is not opaque (`opacity`) is there by that chance.
 - **Samples.** `image.samples` is the number of paths for each pixel, 64 where not given. `until: 0.01` (or `--until 0.01`) goes on
   until the noise is 1 % of the mean luminance; `--stats` tells the noise that is left. Adaptive samples are not for paths.
+- **For a time**: `lambent render scene.yaml --until 30s` (`5min`, `2h`) takes as many samples as fit in that time, from the first ray on, and
+  at least one; limits may be combined, and the first that is met counts. How many fit depends on the machine, and so does the picture. `--stats` and the
+  picture's `lambent:samples` tell how many they were, and `--until 256spp` (`progressive: true, max_samples: 256`), with `--samples` as before, makes the same bits
+  again anywhere. (`--samples 256` lays them out for 256, not for more to follow; that is another picture of the same quality.)
 - **What costs noise**: light that paths meet by chance only. That is the light of lamps behind glass, caustics and small mirrors' light on
   walls; of a point light behind glass nothing arrives at all, as nothing can meet it. `clamp` takes the specks, and light with them.
+- **Without the noise that is left**: `lambent render scene.yaml --denoise -o picture.png`, where
+  [Open Image Denoise](https://www.openimagedenoise.org) is installed: see [Denoising](denoising.md).
 - The same bits whatever the machine and its threads, as all else; another `seed` makes another picture of the same.
 
 With `film: {layers: true}` there are, for each light, for the surfaces that shine and for the sky, the light that comes directly from there

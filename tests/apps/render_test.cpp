@@ -75,13 +75,13 @@ TEST_F(Render, StatsHoldTheCountsAndTimes) {
       render({"scene.yaml", "--stats", "s.json", "--threads", "2", "--samples", "4"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto stats = nlohmann::json::parse(read_text(folder.file("s.json")));
-  EXPECT_EQ(keys_of(stats),
-            (std::vector<std::string>{"bytes", "isa", "noise", "peak_memory_bytes", "rays", "samples_per_pixel",
-                                      "scene", "seconds", "threads", "tree_quality", "version"}));
+  EXPECT_EQ(keys_of(stats), (std::vector<std::string>{"bytes", "isa", "noise", "peak_memory_bytes", "rays",
+                                                      "samples_per_pixel", "scene", "seconds", "threads",
+                                                      "tree_quality", "version"}));
   EXPECT_EQ(keys_of(stats["rays"]),
             (std::vector<std::string>{"ambient", "eye", "eye_hits", "reflection", "refraction", "shadow"}));
   EXPECT_EQ(keys_of(stats["seconds"]),
-            (std::vector<std::string>{"build", "develop", "parse", "render", "write"}));
+            (std::vector<std::string>{"build", "denoise", "develop", "parse", "render", "write"}));
   EXPECT_EQ(stats["rays"]["eye"], 8 * 6 * 4);
   EXPECT_EQ(stats["rays"]["refraction"], 0);
   EXPECT_GT(stats["rays"]["eye_hits"], 0);

@@ -118,9 +118,9 @@ TEST(Readme, ShowsTheSheetThatItsCommandMakes) {
 }
 
 TEST(Pages, PointAtWhatIsThere) {
-  for (const char* page :
-       {"README.md", "HACKING.md", "CONTRIBUTING.md", "docs/lecture.md", "docs/layers.md", "docs/explain.md",
-        "docs/benchmarks.md", "docs/gallery.md", "docs/gltf.md", "scenes/README.md", "fuzz/README.md"}) {
+  for (const char* page : {"README.md", "HACKING.md", "CONTRIBUTING.md", "docs/lecture.md", "docs/layers.md",
+                           "docs/denoising.md", "docs/explain.md", "docs/benchmarks.md", "docs/gallery.md",
+                           "docs/gltf.md", "scenes/README.md", "fuzz/README.md"}) {
     const auto folder = std::filesystem::path(root + "/" + page).parent_path();
     std::istringstream lines(test::read_text(root + "/" + page));
     std::string line;
