@@ -251,14 +251,13 @@ inline constexpr Parameter<PathSettings> parameters_of<PathSettings>[] = {
      "picture is darker than right."},
     {"until", &PathSettings::until, zero_to_one, "",
      "Go on, `image.samples` at first, until the noise is no more than this share of the picture's mean "
-     "luminance (one standard deviation, root mean square over the pixels); 0: `image.samples` and no more."},
+     "luminance (one standard deviation, root mean square over the pixels); 0: no such limit."},
     {"progressive",
      &PathSettings::progressive,
      {},
      "",
      "Go on, `image.samples` at first, to `max_samples`, or as long as `lambent render --until 30s` says. "
-     "`until` "
-     "is so anyway."},
+     "`until` is so anyway."},
     {"max_samples",
      &PathSettings::max_samples,
      {1, 1 << 20},
