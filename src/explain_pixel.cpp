@@ -13,8 +13,8 @@ namespace {
 
 /// Which samples a pixel gets. With adaptive samples that depends on its neighbours, and theirs, and with
 /// samples until the noise is low on all of them; so the picture is taken.
-std::vector<Portion> portions_of_pixel(const Scene& scene, Exposure& exposure, const Kernel& kernel, int threads,
-                                  int x, int y) {
+std::vector<Portion> portions_of_pixel(const Scene& scene, Exposure& exposure, const Kernel& kernel,
+                                       int threads, int x, int y) {
   if (!scene.image.is_adaptive() && !is_progressive(scene)) return exposure.portions();
   Film film(scene.image);
   TileOptions options;

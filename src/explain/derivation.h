@@ -34,7 +34,7 @@ struct DerivedLight {
   LightPoint point{};
   const char* kind = "";  ///< What sort of light it is.
   int number = 0;         ///< Among those of its source, from 0 on.
-  Rgb Il{};  ///< Of the point where it shines brightest, unfaded.
+  Rgb Il{};               ///< Of the point where it shines brightest, unfaded.
   LightState state = LightState::out_of_reach;
   SeenLight seen{};
   double NL = 0;

@@ -29,7 +29,7 @@ struct LayerPlan {
   bool paths = false;
   bool reflection = false, refraction = false;  ///< Whether anything may come on these ways.
   bool fog = false;
-  int wavelengths = 0;                          ///< Of a picture that is made of them: each is kept, too.
+  int wavelengths = 0;  ///< Of a picture that is made of them: each is kept, too.
 
   int ways() const { return 1 + reflection + refraction; }
   int per_way() const { return first_light + 2 * lights + fog; }

@@ -206,9 +206,9 @@ struct LightPoint {
   std::int32_t light;   ///< Index into Frame::lights.
   std::int32_t source;  ///< What it belongs to (film/layers.h): one of the scene's lights, the same number;
                         ///< or what it stands for: surfaces that shine, or the background.
-  double u, v;    ///< Which of its points.
-  double share;   ///< How much it counts: 1 / how many there are.
-  bool extended;  ///< Whether the light has extent.
+  double u, v;          ///< Which of its points.
+  double share;         ///< How much it counts: 1 / how many there are.
+  bool extended;        ///< Whether the light has extent.
 };
 
 struct EmitterTable;

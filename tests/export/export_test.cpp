@@ -65,11 +65,13 @@ lights:
   EXPECT_EQ(pov.count("sphere {"), 1);
   EXPECT_EQ(pov.count("disc {"), 0) << "not visible";
   EXPECT_TRUE(pov.says("light 'panel' is meant to shine by the cosine to its normal"));
-  EXPECT_TRUE(pov.says("light 'spotlight' is meant to shine by the cosine to its normal, and on one side alone"));
+  EXPECT_TRUE(
+      pov.says("light 'spotlight' is meant to shine by the cosine to its normal, and on one side alone"));
   EXPECT_FALSE(pov.says("light 'bulb'"));
   EXPECT_EQ(dat.count("\nLIGHT CENTER"), 3);
   for (const char* name : {"panel", "spotlight", "bulb"})
-    EXPECT_TRUE(dat.says("has no lights with extent; light '" + std::string(name) + "' is a point, its centre"));
+    EXPECT_TRUE(
+        dat.says("has no lights with extent; light '" + std::string(name) + "' is a point, its centre"));
 }
 
 TEST(Export, InstancesAreWrittenOut) {
