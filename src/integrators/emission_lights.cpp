@@ -1,11 +1,11 @@
 #include "integrators/emission_lights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "integrators/emitters.h"
 #include "integrators/light_pattern.h"
+#include "integrators/prepare_emitters.h"
 
 namespace lambent {
 namespace {
@@ -53,11 +53,14 @@ int longest_axis(const std::vector<Piece>& pieces, const Part& part) {
   return int(std::max_element(extent, extent + 6) - extent);
 }
 
-/// Cuts pieces, which are put into another order, into `count` parts, or as many as there is power for.
+/// Cuts pieces, which are put into another order, into `count` parts, or as many as there are pieces.
 /// `whole`: a single piece takes one light only, as more of them would stand in the same place.
 std::vector<Part> median_cut(std::vector<Piece>& pieces, int count, bool whole) {
+  const auto at_most = [&](int lights, std::size_t first, std::size_t end) {
+    return whole && end - first < std::size_t(lights) ? int(end - first) : lights;
+  };
   std::vector<Part> done, open;
-  if (!pieces.empty()) open.push_back({0, pieces.size(), count});
+  if (!pieces.empty()) open.push_back({0, pieces.size(), at_most(count, 0, pieces.size())});
   while (!open.empty()) {
     const Part part = open.back();
     open.pop_back();
@@ -78,24 +81,13 @@ std::vector<Part> median_cut(std::vector<Piece>& pieces, int count, bool whole) 
     double before = 0;
     while (cut + 1 < part.end && (cut == part.first || before + pieces[cut].power / 2 < power / 2))
       before += pieces[cut++].power;
-    int left = std::clamp(int(std::lround(part.lights * before / power)), 1, part.lights - 1);
-    if (whole) {
-      const auto most = [](std::size_t n) { return int(std::min<std::size_t>(n, 1 << 20)); };
-      left = std::min(left, most(cut - part.first));
-      left = std::max(left, std::min(part.lights - most(part.end - cut), most(cut - part.first)));
-    }
-    int right = part.lights - left;
-    if (whole) right = int(std::min<std::size_t>(std::size_t(right), part.end - cut));
-    open.push_back({cut, part.end, right});
+    const int most = at_most(part.lights - 1, part.first, cut),
+              least = part.lights - at_most(part.lights - 1, cut, part.end),
+              left = std::clamp(int(std::lround(part.lights * before / power)), least, most);
+    open.push_back({cut, part.end, part.lights - left});
     open.push_back({part.first, cut, left});
   }
   return done;
-}
-
-double mean(const Rgb& color) {
-  double sum = 0;
-  for (int c = 0; c < color_channels; ++c) sum += color[c];
-  return sum / color_channels;
 }
 
 Rgb without_nonsense(Rgb color) {
@@ -109,24 +101,26 @@ Rgb without_nonsense(Rgb color) {
 /// Where the light of a painted primitive is looked up: in so many points.
 constexpr int looks = 16;
 
-class Surfaces {
- public:
-  Surfaces(const Frame& frame, const World& world) : frame_(frame), world_(world) {}
+}  // namespace
 
-  EmissionLights lights(int count) {
+class Emission::Surfaces {
+ public:
+  Surfaces(const Frame& frame, const World& world, int count) : frame_(frame), world_(world) {
     collect();
-    for (const Part& part : median_cut(pieces_, count, false)) {
-      if (part.end - part.first == 1) add_one(shining_[pieces_[part.first].what], part.lights);
-      else add_many(part);
+    parts_ = median_cut(pieces_, count, false);
+  }
+
+  void add_lights(const Frame& frame, EmissionLights& out) const {
+    for (const Part& part : parts_) {
+      if (part.end - part.first == 1) add_one(frame, shining_[pieces_[part.first].what], part.lights, out);
+      else add_many(frame, part, out);
     }
-    return std::move(out_);
   }
 
  private:
   struct Shining {
     HitIds<std::int32_t> ids;
-    double area;
-    Rgb strength;  ///< Radiance times area, in the frame's colours.
+    Rgb strength;  ///< Radiance times area, in red, green and blue.
     bool two_sided;
   };
 
@@ -141,8 +135,7 @@ class Surfaces {
   }
 
   void collect() {
-    std::vector<char> instanced(world_.geometries.size());
-    for (const Instance& instance : world_.instances) instanced[std::size_t(instance.geometry)] = 1;
+    const std::vector<char> instanced = are_instanced(world_);
     for (std::size_t g = 0; g < world_.geometries.size(); ++g)
       if (!instanced[g]) collect(-1, std::int32_t(g));
     for (std::size_t i = 0; i < world_.instances.size(); ++i)
@@ -162,34 +155,21 @@ class Surfaces {
   }
 
   void add(const HitIds<std::int32_t>& ids, bool two_sided, bool is_painted) {
-    Rgb of_all{};  // red, green and blue: what is cut must not depend on the wavelength
+    Rgb strength{};
     Vec3<double> middle{};
-    double power = 0, area = 0;
-    const int count = is_painted || geometry_of(ids).kind != PrimitiveKind::triangle ? looks : 1;
-    for (int i = 0; i < count; ++i) {
-      const auto [Q, n, part] = point_on(ids, i, count);
-      const Rgb rgb = without_nonsense(detail::emission_at(frame_, ids, Q, n, -n));
-      of_all = of_all + part * radiance(ids, rgb);
-      power += part * mean(rgb);
-      area += part;
-      middle = middle + (1.0 / count) * Q;
-    }
-    if (!(power > 0) || !std::isfinite(power)) return;
     const PrimitiveKind kind = geometry_of(ids).kind;
+    const int count = is_painted || kind != PrimitiveKind::triangle ? looks : 1;
+    for (int i = 0; i < count; ++i) {
+      const PointOn point = point_on(ids, i, count);
+      strength = strength + strength_at(ids, point);
+      middle = middle + (1.0 / count) * point.Q;
+    }
+    const double power = mean_of_channels(strength);
+    if (!(power > 0) || !std::isfinite(power)) return;
     const bool is_flat = kind == PrimitiveKind::disc || kind == PrimitiveKind::triangle;
     pieces_.push_back({is_ball(ids) ? geometry_of(ids).spheres[ids.primitive].center : middle,
                        is_flat ? point_on(ids, 0, 1).n : Vec3<double>{}, power, shining_.size()});
-    shining_.push_back({ids, area, of_all, two_sided});
-  }
-
-  /// Emission as the frame has it. Of a pass that is a wavelength in each channel; what is painted is red,
-  /// green and blue before.
-  Rgb radiance(const HitIds<std::int32_t>& ids, const Rgb& rgb) const {
-    if (!frame_.pass) return rgb;
-    const std::uint32_t material = material_of(frame_.world, ids.instance, ids.geometry, ids.primitive);
-    const MaterialRecord &before = frame_.unpainted[material], &m = frame_.materials[material];
-    if (before.painted || geometry_of(ids).colors) return in_pass(*frame_.pass, rgb);
-    return mean(before.emission) > 0 ? (mean(rgb) / mean(before.emission)) * m.emission : Rgb{};
+    shining_.push_back({ids, strength, two_sided});
   }
 
   struct PointOn {
@@ -198,30 +178,26 @@ class Surfaces {
   };
   /// One of `count` points that are spread over a primitive; a triangle's only one is its middle.
   PointOn point_on(const HitIds<std::int32_t>& ids, int number, int count) const {
-    const Geometry& g = geometry_of(ids);
-    const Instance* instance = instance_of(ids);
-    const Vec2<double> at = point_of_light(number, count);
-    if (g.kind == PrimitiveKind::triangle) {
-      const auto& [i, j, k] = g.triangles[ids.primitive];
-      const double root = std::sqrt(at.x), third = 1.0 / 3;
-      const double b0 = count == 1 ? third : 1 - root, b1 = count == 1 ? third : root * (1 - at.y),
-                   b2 = count == 1 ? third : root * at.y;
-      const Vec3<double> n = detail::double_area(g, instance, ids.primitive);
-      const double twice = length(n);
-      if (!(twice > 0)) return {{}, {0, 0, 1}, 0};
-      const bool flipped = instance ? determinant(instance->world_from_object) < 0 : g.flipped;
-      return {b0 * detail::corner_in_world(g, instance, i) + b1 * detail::corner_in_world(g, instance, j) +
-                  b2 * detail::corner_in_world(g, instance, k),
-              ((flipped ? -1.0 : 1.0) / twice) * n, 0.5 * twice / count};
-    }
-    const detail::AreaPoint local = detail::point_of_primitive(g, ids.primitive, at.x, at.y);
-    PointOn result{local.Q, local.n, 0};
-    if (instance) {
-      result.Q = transform_point(instance->world_from_object, local.Q);
-      result.n = normalize(transform_normal(instance->object_from_world, local.n));
-    }
-    result.area = 1 / (count * detail::density_by_area(frame_, ids, result.n));
-    return result;
+    const bool is_middle = count == 1 && geometry_of(ids).kind == PrimitiveKind::triangle;
+    const Vec2<double> at = is_middle ? Vec2<double>{4.0 / 9, 0.5} : point_of_light(number, count);
+    const auto [Q, n] = detail::point_in_world(geometry_of(ids), instance_of(ids), ids.primitive, at.x, at.y);
+    if (!(dot(n, n) > 0)) return {Q, n, 0};
+    return {Q, n, 1 / (count * detail::density_by_area(frame_, ids, n))};
+  }
+  /// Radiance times area, in red, green and blue.
+  Rgb strength_at(const HitIds<std::int32_t>& ids, const PointOn& point) const {
+    return point.area * without_nonsense(detail::emission_at(frame_, ids, point.Q, point.n, -point.n));
+  }
+
+  /// As the frame has it. Of a pass that is a wavelength in each channel; what is painted is red, green and
+  /// blue before.
+  Rgb in_frame(const Frame& frame, const HitIds<std::int32_t>& ids, const Rgb& strength) const {
+    if (!frame.pass) return strength;
+    const std::uint32_t material = material_of(frame.world, ids.instance, ids.geometry, ids.primitive);
+    const MaterialRecord& before = frame.unpainted[material];
+    if (before.painted || geometry_of(ids).colors) return in_pass(*frame.pass, strength);
+    return (mean_of_channels(strength) / mean_of_channels(before.emission)) *
+           frame.materials[material].emission;
   }
 
   /// A point of a primitive: of a triangle one that lies near `at`.
@@ -245,23 +221,22 @@ class Surfaces {
     return point;
   }
 
-  void add_one(const Shining& one, int count) {
-    if (is_ball(one.ids)) return add_ball(one, one.strength, count);
+  void add_one(const Frame& frame, const Shining& one, int count, EmissionLights& out) const {
+    if (is_ball(one.ids)) return add_ball(one, in_frame(frame, one.ids, one.strength), count, out);
     for (int i = 0; i < count; ++i) {
       const PointOn point = point_on(one.ids, i, count);
-      const Rgb radiance = this->radiance(
-          one.ids, without_nonsense(detail::emission_at(frame_, one.ids, point.Q, point.n, -point.n)));
-      add_flat(one, point, point.area * radiance);
+      add_flat(one, point, in_frame(frame, one.ids, strength_at(one.ids, point)), out);
     }
   }
 
   /// All of a part's light comes from the primitive whose middle is nearest to its own.
-  void add_many(const Part& part) {
+  void add_many(const Frame& frame, const Part& part, EmissionLights& out) const {
     const double power = power_of(pieces_, part.first, part.end);
     Rgb strength{};
     Vec3<double> middle{};
     for (std::size_t i = part.first; i < part.end; ++i) {
-      strength = strength + shining_[pieces_[i].what].strength;
+      const Shining& shining = shining_[pieces_[i].what];
+      strength = strength + in_frame(frame, shining.ids, shining.strength);
       middle = middle + (pieces_[i].power / power) * pieces_[i].at;
     }
     std::size_t nearest = part.first;
@@ -269,26 +244,26 @@ class Surfaces {
     for (std::size_t i = part.first + 1; i < part.end; ++i)
       if (distance(i) < distance(nearest)) nearest = i;
     const Shining& one = shining_[pieces_[nearest].what];
-    if (is_ball(one.ids)) add_ball(one, strength, 1);
-    else add_flat(one, point_near(one.ids, middle), strength);
+    if (is_ball(one.ids)) add_ball(one, strength, 1, out);
+    else add_flat(one, point_near(one.ids, middle), strength, out);
   }
 
-  void add_ball(const Shining& one, const Rgb& strength, int count) {
+  void add_ball(const Shining& one, const Rgb& strength, int count, EmissionLights& out) const {
     const Sphere& s = geometry_of(one.ids).spheres[one.ids.primitive];
     SphereLight light;
     light.center = s.center, light.radius = s.radius;
     light.color = (1 / (4 * pi)) * strength;
     for (int i = 0; i < count; ++i) {
       const Vec2<double> at = point_of_light(i, count);
-      out_.points.push_back(
-          {int(out_.lights.size()), surfaces_source(frame_.light_count), at.x, at.y, 1.0 / count, true});
+      out.points.push_back(
+          {int(out.lights.size()), surfaces_source(frame_.light_count), at.x, at.y, 1.0 / count, true});
     }
-    out_.lights.emplace_back(light);
+    out.lights.emplace_back(light);
   }
 
   /// A light whose middle is the point. Its sides only say how far from the origin the primitive reaches,
   /// which is how exactly its place is known.
-  void add_flat(const Shining& one, const PointOn& point, const Rgb& strength) {
+  void add_flat(const Shining& one, const PointOn& point, const Rgb& strength, EmissionLights& out) const {
     if (is_black(strength)) return;
     const double size = detail::size_around(geometry_of(one.ids), instance_of(one.ids), one.ids.primitive);
     const Axes<double> axes = axes_around(point.n);
@@ -297,95 +272,97 @@ class Surfaces {
     light.u = size * axes.x, light.v = size * axes.y;
     light.color = (1 / pi) * strength;
     light.two_sided = one.two_sided;
-    out_.points.push_back({int(out_.lights.size()), surfaces_source(frame_.light_count), 0.5, 0.5, 1, true});
-    out_.lights.emplace_back(light);
+    out.points.push_back({int(out.lights.size()), surfaces_source(frame_.light_count), 0.5, 0.5, 1, true});
+    out.lights.emplace_back(light);
   }
 
   const Frame& frame_;
   const World& world_;
   std::vector<Shining> shining_;
   std::vector<Piece> pieces_;
-  EmissionLights out_;
+  std::vector<Part> parts_;
 };
 
 // ---- the background
 
-/// A cell of the sky.
-struct Cell {
-  Vec3<double> d;  ///< Its middle.
-  double solid_angle;
+class Emission::Sky {
+ public:
+  Sky(const Frame& frame, int count) : has_picture_(frame.environment.texture.levels) {
+    // Of a picture the finest level of detail that has not more cells than these: it is the mean of the finer
+    // ones, so a sun that is smaller than a cell keeps its power.
+    constexpr int most_cells = 1 << 17;
+    const TextureRecord& texture = frame.environment.texture;
+    Texture::Level level{128, 64, 0};
+    if (has_picture_) level = texture.levels[finest_level(texture, most_cells)];
+    for (int y = 0; y < level.height; ++y) {
+      const double solid_angle =
+          detail::solid_angle_of_cell(detail::band_of_row(y, level.height), level.width);
+      const auto [across, up] = sincos_degrees(180.0 * (y + 0.5) / level.height);
+      for (int x = 0; x < level.width; ++x) {
+        Rgb color = frame.background;
+        if (has_picture_) {
+          const Texel texel = detail::texel_at(texture, level, x, y);
+          for (int c = 0; c < color_channels; ++c) color[c] *= texel.c[c];
+        }
+        const Rgb irradiance = solid_angle * without_nonsense(color);
+        const double brightness = mean_of_channels(irradiance);
+        if (!(brightness > 0) || !std::isfinite(brightness)) continue;
+        // An even sky is cut in the same way whatever its colour.
+        const double power = has_picture_ ? brightness : solid_angle;
+        pieces_.push_back(
+            {detail::direction_in_picture(frame.environment, (x + 0.5) / level.width, up, across),
+             {},
+             power,
+             irradiances_.size()});
+        irradiances_.push_back(irradiance);
+        solid_angles_.push_back(solid_angle);
+      }
+    }
+    parts_ = median_cut(pieces_, count, true);
+  }
+
+  void add_lights(const Frame& frame, EmissionLights& out) const {
+    for (const Part& part : parts_) {
+      Vec3<double> middle{};
+      Rgb irradiance{};
+      double solid_angle = 0;
+      for (std::size_t i = part.first; i < part.end; ++i) {
+        middle = middle + pieces_[i].power * pieces_[i].at;
+        irradiance = irradiance + irradiances_[pieces_[i].what];
+        solid_angle += solid_angles_[pieces_[i].what];
+      }
+      // A pass has the background's colour in its wavelengths; a picture's are made of red, green and blue.
+      if (frame.pass)
+        irradiance = has_picture_ ? in_pass(*frame.pass, irradiance) : solid_angle * frame.background;
+      // The whole sky as one light, evenly bright, comes from nowhere.
+      if (!(length(middle) > 1e-9 * power_of(pieces_, part.first, part.end))) middle = {0, 1, 0};
+      DirectionalLight light;
+      light.direction = -normalize(middle);
+      light.color = (1 / pi) * irradiance;
+      out.points.push_back(
+          {int(out.lights.size()), background_source(frame.light_count), 0.5, 0.5, 1, false});
+      out.lights.emplace_back(light);
+    }
+  }
+
+ private:
+  bool has_picture_;
+  std::vector<Piece> pieces_;
+  std::vector<Part> parts_;
+  std::vector<Rgb> irradiances_;  ///< Of the pieces: radiance times solid angle, in red, green and blue.
+  std::vector<double> solid_angles_;
 };
 
-/// By rows of equal steps of latitude, from the zenith on.
-std::vector<Cell> cells_of_sky(const EnvironmentRecord& environment, int width, int height) {
-  std::vector<Cell> cells;
-  for (int y = 0; y < height; ++y) {
-    const double top = sincos_degrees(180.0 * y / height).cos,
-                 bottom = sincos_degrees(180.0 * (y + 1) / height).cos;
-    const auto [across, up] = sincos_degrees(180.0 * (y + 0.5) / height);
-    for (int x = 0; x < width; ++x) {
-      const auto [sine, cosine] = sincos_degrees(360 * ((x + 0.5) / width - 0.5 - environment.turn));
-      const Vec3<double> d{across * sine, up, -across * cosine};
-      cells.push_back({environment.z_up ? Vec3<double>{d.x, -d.z, d.y} : d, 2 * pi / width * (top - bottom)});
-    }
-  }
-  return cells;
+Emission::Emission(const Frame& frame, const World& world, int surfaces, int background) {
+  if (surfaces > 0) surfaces_ = std::make_unique<Surfaces>(frame, world, surfaces);
+  if (background > 0) sky_ = std::make_unique<Sky>(frame, background);
 }
+Emission::~Emission() = default;
 
-}  // namespace
-
-EmissionLights lights_of_surfaces(const Frame& frame, const World& world, int count) {
-  return Surfaces(frame, world).lights(count);
-}
-
-EmissionLights lights_of_background(const Frame& frame, int count) {
-  // Of a picture the finest level of detail that has not more cells than these: it is the mean of the finer
-  // ones, so a sun that is smaller than a cell keeps its power.
-  constexpr int most_cells = 1 << 17;
-  int width = 128, height = 64;
-  const TextureRecord& texture = frame.environment.texture;
-  int number = 0;
-  if (texture.levels) {
-    const auto cells = [&](int i) {
-      return std::int64_t(texture.levels[i].width) * texture.levels[i].height;
-    };
-    while (number + 1 < texture.level_count && cells(number) > most_cells) ++number;
-    width = texture.levels[number].width, height = texture.levels[number].height;
-  }
-  // Cells in red, green and blue: what is cut must not depend on the wavelength.
-  const std::vector<Cell> cells = cells_of_sky(frame.environment, width, height);
-  std::vector<Rgb> colors;
-  std::vector<Piece> pieces;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    Rgb color = frame.background;
-    double power = texture.levels ? 0 : cells[i].solid_angle;
-    if (texture.levels) {
-      const Texel texel = detail::texel_at(texture, texture.levels[number], int(i) % width, int(i) / width);
-      for (int c = 0; c < color_channels; ++c) color[c] *= texel.c[c];
-      color = without_nonsense(color);
-      power = cells[i].solid_angle * mean(color);
-      if (frame.pass) color = in_pass(*frame.pass, color);
-    }
-    colors.push_back(color);
-    if (power > 0 && std::isfinite(power)) pieces.push_back({cells[i].d, {}, power, i});
-  }
+EmissionLights Emission::lights(const Frame& frame) const {
   EmissionLights out;
-  if (!texture.levels && is_black(frame.background)) return out;
-  for (const Part& part : median_cut(pieces, count, true)) {
-    Vec3<double> middle{};
-    Rgb irradiance{};
-    for (std::size_t i = part.first; i < part.end; ++i) {
-      middle = middle + pieces[i].power * pieces[i].at;
-      irradiance = irradiance + cells[pieces[i].what].solid_angle * colors[pieces[i].what];
-    }
-    // The whole sky as one light, evenly bright, comes from nowhere.
-    if (!(length(middle) > 1e-9 * power_of(pieces, part.first, part.end))) middle = {0, 1, 0};
-    DirectionalLight light;
-    light.direction = -normalize(middle);
-    light.color = (1 / pi) * irradiance;
-    out.points.push_back({int(out.lights.size()), background_source(frame.light_count), 0.5, 0.5, 1, false});
-    out.lights.emplace_back(light);
-  }
+  if (surfaces_) surfaces_->add_lights(frame, out);
+  if (sky_) sky_->add_lights(frame, out);
   return out;
 }
 

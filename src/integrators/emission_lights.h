@@ -14,6 +14,7 @@
 //
 // With many lights the sum nears the integrals over area and solid angle that paths estimate.
 
+#include <memory>
 #include <vector>
 
 #include "integrators/frame.h"
@@ -25,11 +26,29 @@ struct EmissionLights {
   std::vector<LightPoint> points;  ///< Their `light` counts from the first of `lights`.
 };
 
-/// The lights that stand for the surfaces of a frame's world that have emission, planes excepted: those are
-/// infinite. `world` is the frame's; the frame has its materials, textures and environment, and counts its
-/// lights.
-EmissionLights lights_of_surfaces(const Frame& frame, const World& world, int count);
-/// Likewise for the background, a colour or a picture.
-EmissionLights lights_of_background(const Frame& frame, int count);
+/// What shines in a frame, cut into parts. How it is cut does not depend on the wavelength, so it is done
+/// once for all passes of a picture.
+class Emission {
+ public:
+  /// `world` is the frame's; the frame has its materials, textures and environment, counts its lights, and is
+  /// of no pass. Both must outlive this.
+  ///   surfaces    how many lights stand for the surfaces that have emission, planes excepted: those are
+  ///               infinite
+  ///   background  and how many for the background, a colour or a picture. 0: none.
+  Emission(const Frame& frame, const World& world, int surfaces, int background);
+  ~Emission();
+  Emission(const Emission&) = delete;
+  Emission& operator=(const Emission&) = delete;
+
+  /// The lights of both, the surfaces' first, in the colours of `frame`: the same, or that of one of its
+  /// passes.
+  EmissionLights lights(const Frame& frame) const;
+
+ private:
+  class Surfaces;
+  class Sky;
+  std::unique_ptr<Surfaces> surfaces_;  ///< Null: nobody asks for them; likewise
+  std::unique_ptr<Sky> sky_;
+};
 
 }  // namespace lambent

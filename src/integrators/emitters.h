@@ -55,6 +55,7 @@ struct EmitterTable {
   const std::int32_t* emitter_of;
   const std::int32_t* emitter_of_light;  ///< For each of the frame's lights.
   std::int32_t background;               ///< Its emitter; -1: it is black.
+  std::int32_t only_light;  ///< The light with extent that is all that shines; -1: there is another, or more.
   EnvironmentChoice environment;
 };
 
@@ -267,6 +268,34 @@ inline Vec3<double> double_area(const Geometry& g, const Instance* instance, std
   return cross(corner_in_world(g, instance, j) - p, corner_in_world(g, instance, k) - p);
 }
 
+/// Likewise, out of the triangle's front. Corners in the world run the other way round in a mirrored
+/// instance; baked ones say so.
+inline Vec3<double> outward_double_area(const Geometry& g, const Instance* instance, std::int32_t primitive) {
+  const bool flipped = instance ? determinant(instance->world_from_object) < 0 : g.flipped;
+  const Vec3<double> n = double_area(g, instance, primitive);
+  return flipped ? -n : n;
+}
+
+/// Of any primitive but a plane, chosen evenly over its area as it is in its own space; in the world. A
+/// triangle without area has no normal: zero.
+inline AreaPoint point_in_world(const Geometry& g, const Instance* instance, std::int32_t primitive, double u,
+                                double v) {
+  if (g.kind == PrimitiveKind::triangle) {
+    const auto& [i, j, k] = g.triangles[primitive];
+    const double root = sqrt(u), b0 = 1 - root, b1 = root * (1 - v), b2 = root * v;
+    const Vec3<double> n = outward_double_area(g, instance, primitive);
+    return {b0 * corner_in_world(g, instance, i) + b1 * corner_in_world(g, instance, j) +
+                b2 * corner_in_world(g, instance, k),
+            dot(n, n) > 0 ? normalize(n) : Vec3<double>{}};
+  }
+  AreaPoint at = point_of_primitive(g, primitive, u, v);
+  if (instance) {
+    at.Q = transform_point(instance->world_from_object, at.Q);
+    at.n = normalize(transform_normal(instance->object_from_world, at.n));
+  }
+  return at;
+}
+
 /// Per unit area in the world; G: the geometric normal in the world there, on either side.
 inline double density_by_area(const Frame& frame, const HitIds<std::int32_t>& ids, const Vec3<double>& G) {
   const Geometry& g = frame.world.geometries[ids.geometry];
@@ -355,24 +384,8 @@ inline EmitterSample sample_surface(const Frame& frame, const Emitter& e, const 
         (1 / out.density) * emission_at(frame, ids, s.center + s.radius * n, n, out.L);
     return out;
   }
-  AreaPoint at;
-  if (g.kind == PrimitiveKind::triangle) {
-    const auto& [i, j, k] = g.triangles[e.primitive];
-    const double root = sqrt(u), b0 = 1 - root, b1 = root * (1 - v), b2 = root * v;
-    at.Q = b0 * corner_in_world(g, instance, i) + b1 * corner_in_world(g, instance, j) +
-           b2 * corner_in_world(g, instance, k);
-    const Vec3<double> n = double_area(g, instance, e.primitive);
-    if (!(dot(n, n) > 0)) return out;
-    // Corners in the world run the other way round in a mirrored instance; baked ones say so.
-    const bool flipped = instance ? determinant(instance->world_from_object) < 0 : g.flipped;
-    at.n = (flipped ? -1.0 : 1.0) * normalize(n);
-  } else {
-    at = point_of_primitive(g, e.primitive, u, v);
-    if (instance) {
-      at.Q = transform_point(instance->world_from_object, at.Q);
-      at.n = normalize(transform_normal(instance->object_from_world, at.n));
-    }
-  }
+  const AreaPoint at = point_in_world(g, instance, e.primitive, u, v);
+  if (!(dot(at.n, at.n) > 0)) return out;
   const auto towards_point = towards(at.Q, P);
   out.L = towards_point.L, out.r = towards_point.r;
   const double cosine = abs(dot(at.n, out.L));
@@ -399,6 +412,26 @@ inline double density_of_surface(const Frame& frame, const HitIds<std::int32_t>&
 
 // ---- the background
 
+/// Between which heights of the unit sphere a row of a picture around the scene lies.
+struct Band {
+  double top, bottom;
+};
+inline Band band_of_row(int row, int rows) {
+  return {sincos_degrees(180.0 * row / rows).cos, sincos_degrees(180.0 * (row + 1) / rows).cos};
+}
+/// Of a cell in it, by Archimedes.
+inline double solid_angle_of_cell(const Band& band, int columns) {
+  return (2 * pi / columns) * (band.top - band.bottom);
+}
+/// The direction at that height, `along` the picture from its left to its right, 0 to 1. across: the root of
+/// 1 - height^2.
+inline Vec3<double> direction_in_picture(const EnvironmentRecord& environment, double along, double height,
+                                         double across) {
+  const auto [sine, cosine] = sincos_degrees(360 * (along - 0.5 - environment.turn));
+  const Vec3<double> d{across * sine, height, -across * cosine};
+  return environment.z_up ? Vec3<double>{d.x, -d.z, d.y} : d;
+}
+
 /// By the cell of the picture that is seen along a direction.
 inline double density_of_environment(const Frame& frame, const Vec3<double>& along) {
   const EnvironmentChoice& e = frame.emitters->environment;
@@ -410,10 +443,7 @@ inline double density_of_environment(const Frame& frame, const Vec3<double>& alo
   const double in_row = columns[e.width], row = e.rows[y + 1] - e.rows[y];
   if (!(in_row > 0)) return 0;
   const double share = (row / e.rows[e.height]) * ((columns[x + 1] - columns[x]) / in_row);
-  // The cell's solid angle, by Archimedes.
-  const double top = sincos_degrees(180.0 * y / e.height).cos,
-               bottom = sincos_degrees(180.0 * (y + 1) / e.height).cos;
-  return share / ((2 * pi / e.width) * (top - bottom));
+  return share / solid_angle_of_cell(band_of_row(y, e.height), e.width);
 }
 
 /// Where in a table of sums, which begins with 0 and has `count` steps, `at` of the last one lies: the step,
@@ -437,13 +467,9 @@ inline Vec3<double> environment_direction(const Frame& frame, double u, double v
   double down, right;
   const int y = step_at(e.rows, e.height, v, down);
   const int x = step_at(e.columns + std::size_t(y) * std::size_t(e.width + 1), e.width, u, right);
-  const double top = sincos_degrees(180.0 * y / e.height).cos,
-               bottom = sincos_degrees(180.0 * (y + 1) / e.height).cos;
+  const auto [top, bottom] = band_of_row(y, e.height);
   const double height = top + down * (bottom - top), across = sqrt(max(1 - height * height, 0.0));
-  const double round = (x + right) / e.width - 0.5 - frame.environment.turn;
-  const auto [sine, cosine] = sincos_degrees(360 * round);
-  const Vec3<double> d{across * sine, height, -across * cosine};
-  return frame.environment.z_up ? Vec3<double>{d.x, -d.z, d.y} : d;
+  return direction_in_picture(frame.environment, (x + right) / e.width, height, across);
 }
 
 inline double density_of_background(const Frame& frame, const Vec3<double>& N, const Vec3<double>& L) {

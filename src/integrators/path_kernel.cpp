@@ -321,20 +321,8 @@ template <bool Seen> struct Work : Wavefront {
     return out;
   }
 
-  /// The light with extent that is all that shines; -1: there is another, or more. Its choice is certain, and
-  /// a whole packet looks for it at once. Where it lights nothing search_all would not have asked: it is
-  /// black there all the same.
-  int only_light() const {
-    const EmitterTable& table = *frame.emitters;
-    if (table.root_count != 1 || table.roots[0].node < 0) return -1;
-    const LightNode& node = table.nodes[table.roots[0].node];
-    if (node.child >= 0) return -1;
-    const Emitter& e = table.emitters[node.emitter];
-    if (e.kind != EmitterKind::light) return -1;
-    const bool has_extent =
-        with_light(frame.lights[e.light], []<class Light>(const Light&) { return bool(HasExtent<Light>); });
-    return has_extent ? e.light : -1;
-  }
+  /// The light that is all that shines: its choice is certain, and a whole packet looks for it at once. Where
+  /// it lights nothing search_all would not have asked: it is black there all the same.
   [[gnu::noinline]] Searched search_one(const Lanes& at, const Hits& hits, int number) const {
     const Draw point = draw(at, light_point);
     Searched out;
@@ -356,7 +344,7 @@ template <bool Seen> struct Work : Wavefront {
                                         const Vec3<F>& facing, const Truth& solid, const F& pick) {
     const Truth asked = both(solid, Truth(!scattering.only_perfect()));
     if (!any(asked)) return;
-    const int only = Seen ? -1 : only_light();
+    const int only = Seen ? -1 : frame.emitters->only_light;
     const Searched search =
         only >= 0 ? search_one(at, hits, only) : search_all(at, hits, facing, lane_bits(asked), pick);
     const Vec3<F>& to_light = search.L;

@@ -184,33 +184,31 @@ void color(const Scene& scene, const Pass* pass, const PreparedFrame& prepared, 
   }
 }
 
-/// Whether lights stand for surfaces and background that shine. Paths find these by themselves.
-bool traces_whitted(const Scene& scene) {
-  return scene.integrator == Integrator::whitted || scene.integrator == Integrator::spectral ||
-         scene.integrator == Integrator::view;
-}
-bool takes_surfaces(const Scene& scene) {
-  return traces_whitted(scene) && scene.whitted.emission_samples > 0;
-}
-bool takes_background(const Scene& scene) {
-  return traces_whitted(scene) && scene.whitted.background_samples > 0;
-}
-
 std::uint64_t primitive_count(const Scene& scene) {
   std::uint64_t count = 0;
   for (const Shape& shape : scene.shapes) count += primitive_count(shape);
   return count;
 }
 
+/// How many lights stand for surfaces and background that shine. Paths find these by themselves.
+struct EmissionCounts {
+  int surfaces = 0, background = 0;
+};
+EmissionCounts emission_counts(const Scene& scene) {
+  if (scene.integrator == Integrator::path || scene.integrator == Integrator::ambient_occlusion) return {};
+  return {scene.whitted.emission_samples, scene.whitted.background_samples};
+}
+
 /// What tells light apart in the layers: the scene's lights, and what else shines, if anybody asks.
 int source_count(const Scene& scene, int lights) {
-  if (scene.integrator == Integrator::path || takes_background(scene)) return background_source(lights) + 1;
-  return takes_surfaces(scene) ? surfaces_source(lights) + 1 : lights;
+  const EmissionCounts counts = emission_counts(scene);
+  if (scene.integrator == Integrator::path || counts.background > 0) return background_source(lights) + 1;
+  return counts.surfaces > 0 ? surfaces_source(lights) + 1 : lights;
 }
 
 /// The points that the lecture's sum over lights takes: of the scene's lights, then of those that stand for
 /// surfaces and background. The frame is complete but for them.
-void set_light_points(const Scene& scene, const World& world, Frame& frame, PreparedFrame::Colored& colored) {
+void set_light_points(const Emission& emission, Frame& frame, PreparedFrame::Colored& colored) {
   for (int l = 0; l < frame.light_count; ++l)
     with_light(colored.lights[std::size_t(l)], [&]<class L>(const L& light) {
       const int count = samples_of(light);
@@ -219,15 +217,12 @@ void set_light_points(const Scene& scene, const World& world, Frame& frame, Prep
         colored.light_points.push_back({l, l, at.x, at.y, 1.0 / count, HasExtent<L>});
       }
     });
-  const auto add = [&](const EmissionLights& more) {
-    for (LightPoint point : more.points) {
-      point.light += int(colored.lights.size());
-      colored.light_points.push_back(point);
-    }
-    colored.lights.insert(colored.lights.end(), more.lights.begin(), more.lights.end());
-  };
-  if (takes_surfaces(scene)) add(lights_of_surfaces(frame, world, scene.whitted.emission_samples));
-  if (takes_background(scene)) add(lights_of_background(frame, scene.whitted.background_samples));
+  const EmissionLights more = emission.lights(frame);
+  for (LightPoint point : more.points) {
+    point.light += frame.light_count;
+    colored.light_points.push_back(point);
+  }
+  colored.lights.insert(colored.lights.end(), more.lights.begin(), more.lights.end());
   frame.lights = colored.lights.data();
   frame.light_points = colored.light_points.data();
   frame.light_point_count = int(colored.light_points.size());
@@ -333,9 +328,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
   if (is_white) frame.whitted.max_depth = 1;
   frame.layers.lights = source_count(scene, frame.light_count);
   frame.layers.paths = scene.integrator == Integrator::path;
-  if (frame.layers.paths) {
-    // All their layers are by the direct way.
-  } else if (frame.whitted.max_depth > 1)
+  if (!frame.layers.paths && frame.whitted.max_depth > 1)  // paths' layers are all by the direct way
     for (const Object& object : scene.objects)
       for (std::uint32_t m : object.materials) {
         // A refracted ray may be reflected totally.
@@ -349,7 +342,9 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
                            ambient_attenuation_of(illumination, ModelId(model))};
   if (illumination.occlusion) frame.occlusion = *illumination.occlusion;
   frame.minimum_distance = illumination.minimum_distance;
-  set_light_points(scene, prepared->world, frame, prepared->colored);
+  const EmissionCounts counts = emission_counts(scene);
+  const Emission emission(frame, prepared->world, counts.surfaces, counts.background);
+  set_light_points(emission, frame, prepared->colored);
   if (scene.integrator == Integrator::path) {
     frame.tracing = Tracing::path;
     frame.path = scene.path;
@@ -366,7 +361,7 @@ std::unique_ptr<PreparedFrame> prepare(const Scene& scene, double time) {
       Frame& of_pass = prepared->pass_frames[p];
       color(scene, &prepared->passes[p], *prepared, of_pass, prepared->pass_colored[p]);
       of_pass.pass = &prepared->passes[p];
-      set_light_points(scene, prepared->world, of_pass, prepared->pass_colored[p]);
+      set_light_points(emission, of_pass, prepared->pass_colored[p]);
       prepared->passes[p].frame = &of_pass;
     }
     frame.passes = prepared->passes.data();

@@ -15,12 +15,6 @@ constexpr std::size_t few = 8;
 /// detail is taken.
 constexpr std::int64_t most_cells = 1 << 21;
 
-double mean(const Rgb& color) {
-  double sum = 0;
-  for (int c = 0; c < color_channels; ++c) sum += color[c];
-  return sum / color_channels;
-}
-
 class Collector {
  public:
   Collector(const Frame& frame, const World& world)
@@ -43,6 +37,7 @@ class Collector {
                    out_->emitter_of.data(),
                    out_->emitter_of_light.data(),
                    background_,
+                   only_light(),
                    environment_};
     return std::move(out_);
   }
@@ -53,6 +48,16 @@ class Collector {
     return std::int32_t(out_->emitters.size()) - 1;
   }
 
+  /// Where nothing else shines, and its choice is certain.
+  std::int32_t only_light() const {
+    if (out_->emitters.size() != 1 || out_->roots[0].node < 0) return -1;
+    const Emitter& e = out_->emitters[0];
+    if (e.kind != EmitterKind::light) return -1;
+    const bool has_extent =
+        with_light(frame_.lights[e.light], []<class L>(const L&) { return HasExtent<L>; });
+    return has_extent ? e.light : -1;
+  }
+
   void add_unbounded(std::int32_t emitter, double irradiance, const Vec3<double>& L) {
     out_->emitters[std::size_t(emitter)].root = std::int32_t(out_->roots.size());
     out_->roots.push_back({-1, emitter, {}, irradiance, L});
@@ -61,7 +66,7 @@ class Collector {
   // ---- the scene's lights
 
   template <class L> void add_light(const L& light, int number) {
-    const double intensity = pi * mean(emitted<double>(light.color, light.intensity));
+    const double intensity = pi * mean_of_channels(emitted<double>(light.color, light.intensity));
     if (!(intensity > 0)) return;
     const std::int32_t emitter = add(EmitterKind::light, number, {-1, -1, -1});
     out_->emitter_of_light[std::size_t(number)] = emitter;
@@ -109,8 +114,7 @@ class Collector {
   // ---- surfaces
 
   void add_surfaces() {
-    std::vector<char> instanced(world_.geometries.size());
-    for (const Instance& instance : world_.instances) instanced[std::size_t(instance.geometry)] = 1;
+    const std::vector<char> instanced = are_instanced(world_);
     for (std::size_t g = 0; g < world_.geometries.size(); ++g)
       out_->first_of_geometry.push_back(instanced[g] ? -1 : add_geometry(-1, std::int32_t(g)));
     for (std::size_t i = 0; i < world_.instances.size(); ++i)
@@ -154,7 +158,7 @@ class Collector {
       for (int c = 0; c < color_channels; ++c)
         emission[c] *= std::max(map.offset + map.gain * texel.c[c], 0.0);
     }
-    return mean(emission);
+    return mean_of_channels(emission);
   }
 
   LightBounds bounds_of(const HitIds<std::int32_t>& ids, double radiance, bool two_sided) const {
@@ -165,10 +169,9 @@ class Collector {
     if (g.kind == PrimitiveKind::triangle) {
       for (const std::uint32_t corner : g.triangles[ids.primitive])
         bounds.box.add(detail::corner_in_world(g, instance, corner));
-      Vec3<double> n = detail::double_area(g, instance, ids.primitive);
+      const Vec3<double> n = detail::outward_double_area(g, instance, ids.primitive);
       const double twice = length(n);
       if (!(twice > 0)) return bounds;
-      if (instance ? determinant(instance->world_from_object) < 0 : g.flipped) n = -n;
       face(bounds, n / twice, two_sided);
       bounds.intensity = 0.5 * twice * radiance;
       return bounds;
@@ -236,7 +239,7 @@ class Collector {
   // ---- the background
 
   void add_background() {
-    double irradiance = pi * mean(frame_.background);
+    double irradiance = pi * mean_of_channels(frame_.background);
     if (frame_.environment.texture.levels) irradiance = pi * choose_from_picture();
     if (!(irradiance > 0)) return;
     background_ = add(EmitterKind::background, -1, {-1, -1, -1});
@@ -246,11 +249,7 @@ class Collector {
   /// Lays out the tables; the mean radiance over all directions.
   double choose_from_picture() {
     const TextureRecord& texture = frame_.environment.texture;
-    int number = 0;
-    const auto cells = [&](int i) {
-      return std::int64_t(texture.levels[i].width) * texture.levels[i].height;
-    };
-    while (number + 1 < texture.level_count && cells(number) > most_cells) ++number;
+    const int number = finest_level(texture, most_cells);
     const Texture::Level& level = texture.levels[number];
     const int width = level.width, height = level.height;
 
@@ -260,7 +259,7 @@ class Collector {
         const Texel texel = detail::texel_at(texture, level, x, y);
         Rgb color;
         for (int c = 0; c < color_channels; ++c) color[c] = frame_.background[c] * texel.c[c];
-        const double value = mean(color);
+        const double value = mean_of_channels(color);
         brightness[std::size_t(y) * std::size_t(width) + std::size_t(x)] =
             value > 0 && std::isfinite(value) ? value : 0;
       }
@@ -274,15 +273,14 @@ class Collector {
     out_->rows.push_back(0);
     double sum = 0;
     for (int y = 0; y < height; ++y) {
-      const double band =
-          sincos_degrees(180.0 * y / height).cos - sincos_degrees(180.0 * (y + 1) / height).cos;
+      const auto [top, bottom] = detail::band_of_row(y, height);
       double in_row = 0;
       out_->columns.push_back(0);
       for (int x = 0; x < width; ++x) {
         in_row += 0.125 * (across(x, y - 1) + across(x, y + 1)) + 0.75 * across(x, y);
         out_->columns.push_back(in_row);
       }
-      sum += in_row * band;
+      sum += in_row * (top - bottom);
       out_->rows.push_back(sum);
     }
     environment_ = {width, height, out_->rows.data(), out_->columns.data()};
@@ -298,6 +296,25 @@ class Collector {
 };
 
 }  // namespace
+
+double mean_of_channels(const Rgb& color) {
+  double sum = 0;
+  for (int c = 0; c < color_channels; ++c) sum += color[c];
+  return sum / color_channels;
+}
+
+std::vector<char> are_instanced(const World& world) {
+  std::vector<char> instanced(world.geometries.size());
+  for (const Instance& instance : world.instances) instanced[std::size_t(instance.geometry)] = 1;
+  return instanced;
+}
+
+int finest_level(const TextureRecord& texture, std::int64_t most) {
+  int number = 0;
+  const auto cells = [&](int i) { return std::int64_t(texture.levels[i].width) * texture.levels[i].height; };
+  while (number + 1 < texture.level_count && cells(number) > most) ++number;
+  return number;
+}
 
 std::unique_ptr<PreparedEmitters> prepare_emitters(const Frame& frame, const World& world) {
   return Collector(frame, world).collect();

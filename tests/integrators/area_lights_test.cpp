@@ -12,6 +12,7 @@
 #include "integrators/prepare.h"
 #include "lambent/lambent.h"
 #include "scene/standing_lights.h"
+#include "what_shines.h"
 
 namespace lambent {
 namespace {
@@ -65,23 +66,14 @@ TEST(AreaLight, OfOneSampleIsAPointLightAtItsCentreWithACosine) {
               3 * cosine / r2 * 2 / (1 + std::sqrt(1 - 0.25 / r2)), 1e-6);
 }
 
-/// As in emitters_test.cpp: Lambert's formula, radiance 1.
-double polygon_irradiance(const V& P, const std::vector<V>& corners) {
-  double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const V a = normalize(corners[i] - P), b = normalize(corners[(i + 1) % corners.size()] - P);
-    sum += std::acos(dot(a, b)) * normalize(cross(a, b)).y;
-  }
-  return std::fabs(sum) / 2;
-}
-
 TEST(AreaLight, TendsToTheWholeLightAsItsSamplesGrow) {
   const V at{0.5, 0, 0.25};
   const std::string light =
       "{rectangle: {center: [0, 1, 0], u: [2, 0, 0], v: [0, 0, 1.5], intensity: 3, samples: ";
   // E / pi with Le = pi 3 / A
   const double whole =
-      polygon_irradiance(at, {{-1, 1, -0.75}, {1, 1, -0.75}, {1, 1, 0.75}, {-1, 1, 0.75}}) * 3 / 3.0;
+      test::polygon_irradiance(at, {0, 1, 0}, {{-1, 1, -0.75}, {1, 1, -0.75}, {1, 1, 0.75}, {-1, 1, 0.75}}) *
+      3 / 3.0;
   // The error goes down with the number of samples, about as its inverse.
   for (const int samples : {4, 16, 17, 64, 100, 256})
     EXPECT_NEAR(color_at(light + std::to_string(samples) + "}}", at), whole, 0.5 / samples * whole)

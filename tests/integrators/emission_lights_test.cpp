@@ -16,7 +16,7 @@
 #include "lambent/lambent.h"
 #include "lambent/relight.h"
 #include "random_scene.h"
-#include "scene/mip_levels.h"
+#include "what_shines.h"
 
 namespace lambent {
 namespace {
@@ -45,17 +45,6 @@ Rgb color_at(const std::string& scene) {
   return {image.pixel(0, 0)[0], image.pixel(0, 0)[1], image.pixel(0, 0)[2]};
 }
 
-/// Of a polygon above the floor that faces it, radiance 1: Lambert's formula, E = 1/2 sum of the angle that
-/// each edge is seen under times the cosine of its plane's normal with the floor's.
-double irradiance_of_polygon(const V& P, const std::vector<V>& corners) {
-  double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const V a = normalize(corners[i] - P), b = normalize(corners[(i + 1) % corners.size()] - P);
-    sum += std::acos(dot(a, b)) * normalize(cross(a, b)).y;
-  }
-  return std::fabs(sum) / 2;
-}
-
 /// Two triangles, or a grid of 2 n n of them, over x and z in -1..1 at the height 1; facing down.
 std::string panel(int n, const std::string& material) {
   std::string text = "  - {mesh: {vertices: [", triangles;
@@ -75,7 +64,8 @@ std::string panel(int n, const std::string& material) {
 TEST(EmissionLights, OfAPanelTendToItsFormFactor) {
   const V at{0.5, 0, 0.25};
   // Kd / pi times the irradiance.
-  const double whole = irradiance_of_polygon(at, {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}) / M_PI;
+  const double whole =
+      test::polygon_irradiance(at, {0, 1, 0}, {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}}) / M_PI;
   for (const int grid : {1, 2, 16})
     for (const int samples : {16, 64, 256, 1024}) {
       const Rgb color =
@@ -193,21 +183,7 @@ TEST(BackgroundLights, AreHiddenByWhatStandsBefore) {
 Scene under_picture(int width, int height, bool z_up, double turn) {
   Scene scene =
       *parse_scene(floor_scene({0, 0, 0}, "integrator: {whitted: {background_samples: 1024}}\n", ""));
-  Texture texture;
-  texture.channels = 3;
-  std::mt19937 random(9);
-  std::uniform_real_distribution<float> u(0, 1);
-  for (int i = 0; i < width * height; ++i) {
-    const float bright = u(random) < 0.1f ? 20 * u(random) : u(random) < 0.5f ? 0 : u(random);
-    for (int c = 0; c < 3; ++c) texture.floats.push_back(bright * (1 - 0.3f * float(c)));
-  }
-  texture.levels = {{width, height, 0}};
-  scene.textures.push_back(texture);
-  build_levels(scene.textures[0]);
-  scene.background_image = 0;
-  scene.background = {0.5, 1, 1};
-  scene.background_turn = turn;
-  scene.background_z_up = z_up;
+  test::surround_by_specks(scene, width, height, 0.1f, z_up, turn);
   return scene;
 }
 
@@ -230,10 +206,10 @@ TEST(BackgroundLights, OfAPictureHaveItsLight) {
     EXPECT_NEAR(image.pixel(0, 0)[0], expected, 0.02 * expected) << z_up;
     // Its mean over all directions is kept exactly, whatever the number of lights: no power is lost.
     double sum = 0;
-    for (const AnyLight& light : lights_of_background(frame, 1024).lights)
+    for (const AnyLight& light : Emission(frame, prepared->world, 0, 1024).lights(frame).lights)
       sum += with_light(light, [](const auto& one) { return one.color[0]; });
     double few = 0;
-    for (const AnyLight& light : lights_of_background(frame, 7).lights)
+    for (const AnyLight& light : Emission(frame, prepared->world, 0, 7).lights(frame).lights)
       few += with_light(light, [](const auto& one) { return one.color[0]; });
     EXPECT_NEAR(few, sum, 1e-9 * sum);
   }
@@ -242,20 +218,13 @@ TEST(BackgroundLights, OfAPictureHaveItsLight) {
 TEST(BackgroundLights, FindASmallSun) {
   // One texel of 64 x 32 is the sun: one light stands for it, in its place.
   Scene scene = *parse_scene(floor_scene({0, 0, 0}, "integrator: {whitted: {background_samples: 8}}\n", ""));
-  Texture texture;
-  texture.channels = 3;
-  texture.levels = {{64, 32, 0}};
-  for (int y = 0; y < 32; ++y)
-    for (int x = 0; x < 64; ++x)
-      for (int c = 0; c < 3; ++c) texture.floats.push_back(x == 20 && y == 8 ? 1000.f : 0.1f);
-  scene.textures.push_back(texture);
-  build_levels(scene.textures[0]);
-  scene.background_image = 0;
+  test::surround(scene, 64, 32, [](int x, int y) { return grey(x == 20 && y == 8 ? 1000.0 : 0.1); });
   scene.background = grey(1.0);
   const auto prepared = prepare(scene);
   double brightest_of_all = 0;
   V direction{};
-  for (const AnyLight& light : lights_of_background(prepared->frame, 8).lights) {
+  for (const AnyLight& light :
+       Emission(prepared->frame, prepared->world, 0, 8).lights(prepared->frame).lights) {
     const auto& sun = std::get<DirectionalLight>(light);
     if (sun.color[0] > brightest_of_all) brightest_of_all = sun.color[0], direction = -sun.direction;
   }

@@ -13,7 +13,7 @@
 #include "integrators/prepare.h"
 #include "integrators/prepare_emitters.h"
 #include "lambent/lambent.h"
-#include "scene/mip_levels.h"
+#include "what_shines.h"
 
 namespace lambent {
 namespace {
@@ -71,18 +71,6 @@ Mean irradiance(const Frame& frame, const V& P, const V& N, int count) {
   return mean;
 }
 
-/// Lambert's formula of a polygon's irradiance, radiance 1: half the sum over its edges of the angle under
-/// which each is seen times N . (unit normal of the plane through P and the edge). All of it lies above the
-/// horizon.
-double polygon_irradiance(const V& P, const V& N, const std::vector<V>& corners) {
-  double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const V a = normalize(corners[i] - P), b = normalize(corners[(i + 1) % corners.size()] - P);
-    sum += std::acos(dot(a, b)) * dot(normalize(cross(a, b)), N);
-  }
-  return std::fabs(sum) / 2;
-}
-
 void expect_irradiance(const Prepared& prepared, const V& P, const V& N, double expected) {
   const Mean mean = irradiance(*prepared, P, N, 1 << 14);
   EXPECT_NEAR(mean.mean(), expected, 4 * mean.error() + 1e-6 * expected);
@@ -94,11 +82,12 @@ TEST(Emitters, RectangleGivesWhatLambertsFormulaSays) {
   const std::vector<V> corners{{-1, 2, -0.5}, {1, 2, -0.5}, {1, 2, 0.5}, {-1, 2, 0.5}};
   const double Le = M_PI * 3 / 2;
   for (const V& P : {V{0, 0, 0}, V{0.7, 1, 0.3}, V{-3, 0, 2}}) {
-    expect_irradiance(p, P, {0, 1, 0}, Le * polygon_irradiance(P, {0, 1, 0}, corners));
+    expect_irradiance(p, P, {0, 1, 0}, Le * test::polygon_irradiance(P, {0, 1, 0}, corners));
     expect_irradiance(p, P, normalize(V{0.1, 1, 0}),
-                      Le * polygon_irradiance(P, normalize(V{0.1, 1, 0}), corners));
+                      Le * test::polygon_irradiance(P, normalize(V{0.1, 1, 0}), corners));
   }
-  expect_irradiance(p, {-2, 0.5, 0}, {1, 0, 0}, Le * polygon_irradiance({-2, 0.5, 0}, {1, 0, 0}, corners));
+  expect_irradiance(p, {-2, 0.5, 0}, {1, 0, 0},
+                    Le * test::polygon_irradiance({-2, 0.5, 0}, {1, 0, 0}, corners));
   EXPECT_EQ(irradiance(*p, {0, 3, 0}, {0, -1, 0}, 64).mean(), 0) << "behind it";
 }
 
@@ -131,11 +120,13 @@ TEST(Emitters, SurfacesThatShineAreLights) {
       "mesh: {vertices: [[-1, 2, -1], [1, 2, -1], [1, 2, 1], [-1, 2, 1]], triangles: [[0, 1, 2], [0, 2, 3]]}";
   const Prepared p("objects: [{" + square + ", material: {emission: 2, diffuse: 0}}]\n");
   const std::vector<V> corners{{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}};
-  expect_irradiance(p, {0.3, 0, 0}, {0, 1, 0}, 2 * polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
+  expect_irradiance(p, {0.3, 0, 0}, {0, 1, 0}, 2 * test::polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
   // Both sides shine, unless the material is one-sided: the square faces down.
-  expect_irradiance(p, {0.3, 4, 0}, {0, -1, 0}, 2 * polygon_irradiance({0.3, 4, 0}, {0, -1, 0}, corners));
+  expect_irradiance(p, {0.3, 4, 0}, {0, -1, 0},
+                    2 * test::polygon_irradiance({0.3, 4, 0}, {0, -1, 0}, corners));
   const Prepared one("objects: [{" + square + ", material: {emission: 2, diffuse: 0, one_sided: true}}]\n");
-  expect_irradiance(one, {0.3, 0, 0}, {0, 1, 0}, 2 * polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
+  expect_irradiance(one, {0.3, 0, 0}, {0, 1, 0},
+                    2 * test::polygon_irradiance({0.3, 0, 0}, {0, 1, 0}, corners));
   EXPECT_EQ(irradiance(*one, {0.3, 4, 0}, {0, -1, 0}, 64).mean(), 0);
   // Spheres and discs as the lights of their kind: Le = Il / R^2.
   const Prepared ball(
@@ -347,21 +338,7 @@ TEST(Emitters, InstancesOfASurfaceAreLightsEachForItself) {
 
 Scene with_picture(int width, int height, bool z_up, double turn) {
   Scene scene;
-  Texture texture;
-  texture.channels = 3;
-  std::mt19937 random(9);
-  std::uniform_real_distribution<float> u(0, 1);
-  for (int i = 0; i < width * height; ++i) {
-    const float bright = u(random) < 0.15f ? 20 * u(random) : u(random) < 0.5f ? 0 : u(random);
-    for (int c = 0; c < 3; ++c) texture.floats.push_back(bright * (1 - 0.3f * float(c)));
-  }
-  texture.levels = {{width, height, 0}};
-  scene.textures.push_back(texture);
-  build_levels(scene.textures[0]);
-  scene.background_image = 0;
-  scene.background = {0.5, 1, 1};
-  scene.background_turn = turn;
-  scene.background_z_up = z_up;
+  test::surround_by_specks(scene, width, height, 0.15f, z_up, turn);
   return scene;
 }
 
@@ -569,7 +546,7 @@ TEST(Emitters, FadeAsTheFrameSays) {
   const std::vector<V> corners{{-0.5, 2, -0.5}, {0.5, 2, -0.5}, {0.5, 2, 0.5}, {-0.5, 2, 0.5}};
   // The light with extent fades by itself.
   expect_irradiance(p, {0, 0, 0}, {0, 1, 0},
-                    M_PI * 8 / 4 + M_PI * polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners));
+                    M_PI * 8 / 4 + M_PI * test::polygon_irradiance({0, 0, 0}, {0, 1, 0}, corners));
 }
 
 }  // namespace
