@@ -144,8 +144,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
     tiles.list_pixels_of(i, worker.pixels);
-    const bool noting = film.layers || !film.guides.empty();
-    const std::size_t at_a_time = noting ? pixels_with_hits(frame.samples) : worker.pixels.size();
+    const std::size_t at_a_time = film.wants_hits() ? pixels_with_hits(frame.samples) : worker.pixels.size();
     for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
       const Pixel* pixels = &worker.pixels[first];
       const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
@@ -155,7 +154,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
         worker.layer_sums.assign(count * columns, 0);
         task.layer_sums = worker.layer_sums.data();
       }
-      if (noting) {
+      if (film.wants_hits()) {
         worker.first_hits.resize(count * distances.size());
         task.first_hits = worker.first_hits.data();
       }
@@ -212,9 +211,8 @@ class Goes {
   /// The frame's samples from `first` up to `end`, in its order, of all wanted pixels. The progress goes from
   /// `from` to `to`.
   void go(const Frame& frame, int first, int end, double from, double to, TileRun& run) {
-    const bool noting = film_.layers || !film_.guides.empty();
-    const std::int64_t at_a_time = noting ? std::int64_t(pixels_with_hits(end - first))
-                                          : std::int64_t(options_.tile_size) * options_.tile_size;
+    const std::int64_t at_a_time = film_.wants_hits() ? std::int64_t(pixels_with_hits(end - first))
+                                                      : std::int64_t(options_.tile_size) * options_.tile_size;
     const std::int64_t tasks = (std::int64_t(wanted.size()) + at_a_time - 1) / at_a_time;
     Crew(options_, run).share(tasks, from, to, [&](std::int64_t i, Worker& worker) {
       const std::int64_t begin = i * at_a_time;
@@ -256,7 +254,7 @@ class Goes {
                    end,    worker.sums.data(),   worker.least_and_greatest.data()};
     if (frame.tracing == Tracing::path) task.squares = worker.squares.data();
     const auto taken = std::size_t(end - first);
-    if (film_.layers || !film_.guides.empty()) {
+    if (film_.wants_hits()) {
       worker.first_hits.resize(count * taken);
       task.first_hits = worker.first_hits.data();
     }

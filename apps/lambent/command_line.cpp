@@ -241,13 +241,13 @@ void go_on_until(const std::string& text, Shorthands& shorthands) {
   };
   constexpr int most_samples = 1 << 20;
   const double factor = unit == "s" ? 1 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
-  if (error != std::errc() || !(number > 0) || !std::isfinite(number)) {
-  } else if (unit.empty() && number <= 1) {
-    return set("until", text);
-  } else if (factor > 0) {
+  const bool is_number = error == std::errc() && number > 0 && std::isfinite(number);
+  if (is_number && unit.empty() && number <= 1) return set("until", text);
+  if (is_number && factor > 0) {
     shorthands.time_limit = number * factor;
     return set("progressive", "true");
-  } else if (unit == "spp" && number == std::floor(number) && number <= most_samples) {
+  }
+  if (is_number && unit == "spp" && number == std::floor(number) && number <= most_samples) {
     set("max_samples", fmt::format("{:.0f}", number));
     return set("progressive", "true");
   }

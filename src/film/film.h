@@ -26,6 +26,8 @@ struct Film {
   Film() = default;
   explicit Film(const ImageSettings& settings, const LayerBook* layers = nullptr);
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
+  /// Whether what eye rays meet first is noted.
+  bool wants_hits() const { return layers || !guides.empty(); }
   float* pixel(int x, int y) { return &values[index(x, y) * std::size_t(channels)]; }
 };
 
