@@ -4,14 +4,15 @@
 //   cmake --build build/release --target make_albedo_tables
 //   build/release/src/make_albedo_tables > albedo_tables.h && mv albedo_tables.h src/scattering/
 //
-// All of it is integrals over GGX by the midpoint rule: of normals drawn by visible normals, the albedo is
-// the mean of G2 / G1 of what they reflect and refract. ggx_albedo.h says what is fitted.
+// It takes a few minutes. All of it is integrals over GGX by a lattice: of normals drawn by visible normals,
+// the albedo is the mean of G2 / G1 of what they reflect and refract. ggx_albedo.h says what is fitted.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -19,14 +20,15 @@ namespace {
 double root_of(double c, double alpha) { return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c); }
 
 /// Calls f(V.H, N.H, weight) for n x n visible normals (Dupuy and Benyoub 2023), by half a turn. They lie
-/// denser where they lean far, as the tail of GGX is long.
+/// denser where they lean far, as the tail of GGX is long. Each turn is shifted by the golden ratio against
+/// the one before, so that the edge of total reflection is not met by a whole row at once.
 template <class Function> void for_visible_normals(double mu, double alpha, int n, const Function& f) {
   const double sine = std::sqrt(std::max(1 - mu * mu, 0.0)), length = std::hypot(alpha * sine, mu);
   const double across = alpha * sine / length, up = mu / length;
   for (int i = 0; i < n; ++i) {
-    const double turn = std::cos(M_PI * (i + 0.5) / n);
+    const double turn = std::cos(M_PI * (i + 0.5) / n), shift = std::fmod((i + 0.5) * 0.6180339887498949, 1);
     for (int j = 0; j < n; ++j) {
-      const double rest = (j + 0.5) / n, v = 1 - rest * rest * rest, below = v * (1 + up),
+      const double rest = (j + shift) / n, v = 1 - rest * rest * rest, below = v * (1 + up),
                    ring = std::sqrt(std::max(below * (2 - below), 0.0));
       const double hx = alpha * (ring * turn + across), hz = rest * rest * rest * (1 + up);
       const double over = 1 / std::sqrt(hx * hx + alpha * alpha * ring * ring * (1 - turn * turn) + hz * hz);
@@ -68,14 +70,6 @@ double glass_albedo(double mu, double alpha, double eta, int n) {
              std::min(1.0, down * (mu + root_of(mu, alpha)) / (mu * (down + root_of(down, alpha))));
   });
   return sum;
-}
-
-/// The cosine at a place of the table's first axis: place_of_glass() of ggx_albedo.h the other way round.
-double cosine_of_place(double x, double t, bool outside) {
-  if (outside) return x * x;
-  const double below = 0.7, critical = 2 * std::sqrt(t) / (1 + t), q = x / below;
-  if (x >= below) return critical + (1 - critical) * (x - below) / (1 - below);
-  return critical * (q < 0.5 ? 2 * q * q : 1 - 2 * (1 - q) * (1 - q));
 }
 
 /// Least squares by Householder's reflections: the c with the least |w (A c - b)|. A is row by row.
@@ -157,6 +151,108 @@ double value_of(const std::vector<double>& c, double x, double y, int degree_x, 
   return sum;
 }
 
+/// The table of T = (1 - E_glass) / d, as glass_albedo() of ggx_albedo.h reads it: from outside, from inside;
+/// by place_of_glass(), the roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta - 1) / (eta + 1).
+class GlassTable {
+  static constexpr int nx = 35, nr = 17, nt = 20;
+  /// What E may be too much by, as shares, at the points that are looked at: nothing may be gained, nor
+  /// between them.
+  static constexpr double least = 0.0008, most = 0.007;
+  std::vector<double> table_ = std::vector<double>(2 * nx * nr * nt);
+
+  /// A point of the table's axes, in steps of it, and the integral there.
+  struct Point {
+    std::size_t cell;
+    double rest[3], E, d;
+  };
+  std::vector<Point> points_;
+
+ public:
+  GlassTable() {
+    // The ends of the first two axes are where E turns fastest.
+    std::vector<double> along = halves(nx), rough = halves(nr);
+    for (const double x : {0.02, 0.05, 0.1, 0.2, 0.3}) along.push_back(x);
+    for (const double r : {0.06, 0.12, 0.25, 0.37, 0.75, 1.25}) rough.push_back(r);
+    for (int inside = 0; inside < 2; ++inside)
+      for (const double k : halves(nt))
+        for (const double j : rough)
+          for (const double i : along) add(inside, i, j, k);
+    for (int sweep = 0; sweep < 60; ++sweep)
+      for (const Point& p : points_) mend(p);
+  }
+  const std::vector<double>& values() const { return table_; }
+  static std::vector<int> sizes() { return {2, nx, nr, nt}; }
+  /// The largest share by which E is too little, and too much, at the points that were looked at.
+  std::pair<double, double> errors() const {
+    double little = 0, much = 0;
+    for (const Point& p : points_) {
+      const double error = value(p) / p.E - 1;
+      little = std::max(little, -error), much = std::max(much, error);
+    }
+    return {little, much};
+  }
+
+ private:
+  static std::vector<double> halves(int nodes) {
+    std::vector<double> out;
+    for (int i = 0; i < 2 * nodes - 1; ++i) out.push_back(i / 2.0);
+    return out;
+  }
+  /// The cosine at a place of the first axis, 0 to 1: place_of_glass() the other way round.
+  static double cosine_of_place(double x, double t, double alpha, bool inside) {
+    const auto z_of = [&](double mu) { return mu / root_of(mu, alpha); };
+    const double below = inside ? 0.7 : 1, critical = inside ? z_of(2 * std::sqrt(t) / (1 + t)) : 1,
+                 q = x / below, root = 2 * q / (1.25 - 0.5 * q);
+    const double z = x > below ? critical + (1 - critical) * (x - below) / (1 - below)
+                               : critical * (q < 0.5 ? root * root / 2 : 1 - 2 * (1 - q) * (1 - q));
+    return std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
+  }
+  void add(int inside, double i, double j, double k) {
+    const double share = k / (nt - 1), t = 0.02 + 0.48 * share * share, eta = (1 + t) / (1 - t);
+    const double roughness = std::max(j / (nr - 1), 0.004), alpha = roughness * roughness;
+    const double mu = std::max(cosine_of_place(i / (nx - 1), t, alpha, inside), 1e-7);
+    const double z = mu / root_of(mu, alpha);
+    Point p;
+    p.E = glass_albedo(mu, alpha, inside ? 1 / eta : eta, 150);
+    p.d =
+        z * (1 - z * z) * (0.21 + 0.35 * std::pow(z, 8)) + 0.06 * alpha + 0.5 * alpha * alpha * std::sqrt(z);
+    const double at[] = {i, j, k};
+    const int nodes[] = {nx, nr, nt};
+    p.cell = inside;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int whole = std::min(int(at[axis]), nodes[axis] - 2);
+      p.rest[axis] = at[axis] - whole, p.cell = p.cell * nodes[axis] + whole;
+    }
+    // A node's own value is what its table begins with.
+    if (i == int(i) && j == int(j) && k == int(k))
+      table_[((inside * nx + std::size_t(i)) * nr + std::size_t(j)) * nt + std::size_t(k)] = (1 - p.E) / p.d;
+    points_.push_back(p);
+  }
+  template <class Function> static void for_corners(const Point& p, const Function& f) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
+      const double weight =
+          (i ? p.rest[0] : 1 - p.rest[0]) * (j ? p.rest[1] : 1 - p.rest[1]) * (k ? p.rest[2] : 1 - p.rest[2]);
+      f(p.cell + (std::size_t(i) * nr + j) * nt + k, weight);
+    }
+  }
+  double value(const Point& p) const {
+    double T = 0;
+    for_corners(p, [&](std::size_t node, double weight) { T += weight * table_[node]; });
+    return std::min(1 - T * p.d, 1.0);
+  }
+  /// Moves a point's corners, as little as can be, until E lies between its bounds (Kaczmarz's projections).
+  void mend(const Point& p) {
+    const double E = value(p), off = E - std::clamp(E, (1 + least) * p.E, (1 + most) * p.E);
+    if (off == 0) return;
+    double squares = 0;
+    for_corners(p, [&](std::size_t, double weight) { squares += weight * weight; });
+    for_corners(p, [&](std::size_t node, double weight) {
+      table_[node] = std::clamp(table_[node] + 0.7 * off / p.d * weight / squares, 0.0, 10.0);
+    });
+  }
+};
+
 void say(const char* type, const char* name, const std::vector<double>& values, std::vector<int> sizes,
          const std::string& sentence) {
   std::printf("/// %s\ninline constexpr %s %s", sentence.c_str(), type, name);
@@ -233,22 +329,7 @@ int main() {
   }
   const Fit average_lost = fit(basis, lost, over), average_B = fit(basis, grazing, all);
 
-  // Glass: T = (1 - E_glass) / (1 - E + 0.06 alpha), E as it is fitted, by place_of_glass() of mu, the
-  // roughness, and sqrt((|t| - 0.02) / 0.48), t = (eta - 1) / (eta + 1); from outside, from inside.
-  constexpr int nx = 31, nr = 15, nt = 20;
-  std::vector<double> glass;
-  for (const bool outside : {true, false})
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < nr; ++j)
-        for (int k = 0; k < nt; ++k) {
-          const double t = 0.02 + 0.48 * std::pow(k / (nt - 1.0), 2), eta = (1 + t) / (1 - t);
-          const double mu = std::max(cosine_of_place(i / (nx - 1.0), t, outside), 1e-4),
-                       roughness = std::max(j / (nr - 1.0), 0.1), alpha = roughness * roughness;
-          const double e =
-              value_of(E.coefficients, std::sqrt(mu / root_of(mu, alpha)), roughness, E_x, degree);
-          glass.push_back((1 - glass_albedo(mu, alpha, outside ? eta : 1 / eta, 100)) /
-                          (1 - std::min(e, 1.0) + 0.06 * alpha));
-        }
+  const GlassTable glass;
 
   char right[100];
   const auto to = [&](const char* words, double error) {
@@ -267,11 +348,12 @@ int main() {
          average_lost.error));
   say("double", "average_B", average_B.coefficients, {average_degree + 1},
       to("<B> by powers of the roughness: right to %.4f.", average_B.error));
-  say("float", "glass", glass, {2, nx, nr, nt},
+  say("float", "glass", glass.values(), GlassTable::sizes(),
       "From outside, from inside; by place_of_glass() of N.V, the roughness, the index.");
   std::printf(
       "// clang-format on\n\n}  // namespace albedo_tables\n}  // namespace LAMBENT_ISA\n}  // namespace "
       "lambent\n");
-  std::fprintf(stderr, "E %.5f  B %.5f  <lost> %.5f  <B> %.5f\n", E.error, h.error, average_lost.error,
-               average_B.error);
+  const auto [little, much] = glass.errors();
+  std::fprintf(stderr, "E %.5f  B %.5f  <lost> %.5f  <B> %.5f  glass -%.5f +%.5f\n", E.error, h.error,
+               average_lost.error, average_B.error, little, much);
 }

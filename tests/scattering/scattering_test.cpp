@@ -161,11 +161,11 @@ TEST(Scattering, KeepsAllEnergyAndGainsNone) {
                 });
         }
         for (const Point& s : points) {
-          const double share = furnace<kind()>(s, 4000)[0];
-          // The fits say up to 0.006 too much rather than too little; the table of glass is as good, but for
-          // the neighbourhood of the critical angle. A few thousand points leave an error of about a
-          // thousandth.
-          const double noise = 0.002, table = kind() == ScatterKind::glass ? 0.003 : 0;
+          // The fits and the table of glass say up to 0.009 too much rather than too little. As many points
+          // leave an error of about a thousandth; glass needs more, for what goes through and what comes back
+          // differ.
+          const double share = furnace<kind()>(s, kind() == ScatterKind::glass ? 20000 : 4000)[0];
+          const double noise = 0.002;
           const auto which = [&] {
             return std::string(name_of(kind())) + " roughness " + std::to_string(roughness) + " N.V " +
                    std::to_string(cosine) + " ior " + std::to_string(s.ior) +
@@ -173,8 +173,8 @@ TEST(Scattering, KeepsAllEnergyAndGainsNone) {
                    " transmission " + std::to_string(s.rough.transmission) + " coat " +
                    std::to_string(s.rough.clearcoat);
           };
-          EXPECT_GT(share, 0.99 - noise - table) << which();
-          EXPECT_LT(share, 1 + noise + table) << which();
+          EXPECT_GT(share, 0.99 - noise) << which();
+          EXPECT_LT(share, 1 + noise) << which();
         }
       }
   });
@@ -182,14 +182,14 @@ TEST(Scattering, KeepsAllEnergyAndGainsNone) {
 
 // From inside, where a smooth surface begins to reflect all: the steepest place of the table of glass.
 TEST(Scattering, RoughGlassKeepsItsEnergyAboutTheCriticalAngle) {
-  for (const double ior : {1.08, 1.15, 1.33, 1.9})
-    for (const double roughness : {0.15, 0.3, 0.4, 0.6, 0.9})
+  for (const double ior : {1.05, 1.08, 1.15, 1.33, 1.9, 2.8})
+    for (const double roughness : {0.05, 0.15, 0.3, 0.4, 0.6, 0.9})
       for (const double aside : {-0.15, -0.07, -0.03, 0.0, 0.03, 0.07, 0.15}) {
         Point s = level(std::clamp(std::sqrt(1 - 1 / (ior * ior)) + aside, 0.01, 1.0));
         s.ior = ior, s.outside = false, s.roughness = roughness;
-        const double share = furnace<ScatterKind::glass>(s, 4000)[0], noise = 0.002;
+        const double share = furnace<ScatterKind::glass>(s)[0], noise = 0.002;
         EXPECT_GT(share, 0.99 - noise) << ior << ", roughness " << roughness << ", aside " << aside;
-        EXPECT_LT(share, 1.003 + noise) << ior << ", roughness " << roughness << ", aside " << aside;
+        EXPECT_LT(share, 1 + noise) << ior << ", roughness " << roughness << ", aside " << aside;
       }
 }
 
