@@ -2,6 +2,8 @@
 // Looking a texture up, one point at a time: linear between texels and between levels of detail, with several
 // taps along the longer side of a footprint that is not round.
 
+#include <type_traits>
+
 #include "math/functions.h"
 #include "math/vec.h"
 #include "scene/texture.h"
@@ -38,6 +40,8 @@ inline double floor_of(double x) { return __builtin_floor(x); }
 
 /// Texel i of n, as the texture goes on beyond its ends.
 inline int wrapped(double i, int n, Wrap wrap) {
+  if (i >= 0 && i < n) [[likely]]
+    return int(i);
   if (wrap == Wrap::clamp) return int(min(max(i, 0.0), double(n - 1)));
   const double period = wrap == Wrap::mirror ? 2.0 * n : double(n);
   double in = i - period * floor_of(i / period);
@@ -45,40 +49,76 @@ inline int wrapped(double i, int n, Wrap wrap) {
   return int(min(max(in, 0.0), double(n - 1)));
 }
 
+/// Calls f(read), where read(i) is the texel of which number i is the first: made for each format there is,
+/// as what a texel needs is a few loads and no question.
+template <class Function> Texel with_format(const TextureRecord& texture, const Function& f) {
+  const auto of = [&]<int channels>(std::integral_constant<int, channels>) {
+    constexpr bool grey = channels < 3, alpha = channels % 2 == 0;
+    constexpr std::size_t g = grey ? 0 : 1, b = grey ? 0 : 2, last = channels - 1;
+    if (const std::uint8_t* const bytes = texture.bytes) {
+      const float* const decoded = texture.decoded;
+      return f([=](std::size_t i) {
+        return Texel{{double(decoded[bytes[i]]), double(decoded[bytes[i + g]]), double(decoded[bytes[i + b]]),
+                      alpha ? bytes[i + last] / 255.0 : 1.0}};
+      });
+    }
+    const float* const floats = texture.floats;
+    return f([=](std::size_t i) {
+      return Texel{{double(floats[i]), double(floats[i + g]), double(floats[i + b]),
+                    alpha ? double(floats[i + last]) : 1.0}};
+    });
+  };
+  switch (texture.channels) {
+    case 1:
+      return of(std::integral_constant<int, 1>());
+    case 2:
+      return of(std::integral_constant<int, 2>());
+    case 3:
+      return of(std::integral_constant<int, 3>());
+    default:
+      return of(std::integral_constant<int, 4>());
+  }
+}
+
+inline std::size_t first_number(const TextureRecord& texture, const Texture::Level& level, int x, int y) {
+  return level.first +
+         (std::size_t(y) * std::size_t(level.width) + std::size_t(x)) * std::size_t(texture.channels);
+}
 inline Texel texel_at(const TextureRecord& texture, const Texture::Level& level, int x, int y) {
-  const std::size_t i = level.first + (std::size_t(y) * std::size_t(level.width) + std::size_t(x)) *
-                                          std::size_t(texture.channels);
-  const bool grey = texture.channels < 3, alpha = texture.channels % 2 == 0;
-  const int last = texture.channels - 1;
-  Texel t;
-  for (int c = 0; c < 3; ++c)
-    t.c[c] = texture.bytes ? double(texture.decoded[texture.bytes[i + std::size_t(grey ? 0 : c)]])
-                           : double(texture.floats[i + std::size_t(grey ? 0 : c)]);
-  t.c[3] = !alpha          ? 1.0
-           : texture.bytes ? texture.bytes[i + std::size_t(last)] / 255.0
-                           : double(texture.floats[i + std::size_t(last)]);
-  return t;
+  return with_format(texture, [&](const auto& read) { return read(first_number(texture, level, x, y)); });
 }
 
 inline void add(Texel& sum, double weight, const Texel& t) {
   for (int c = 0; c < 4; ++c) sum.c[c] += weight * t.c[c];
 }
 
-inline Texel on_level(const TextureRecord& texture, int number, const Vec2<double>& uv,
-                      const TextureMap& map) {
+/// Texels i and i + 1.
+struct Neighbours {
+  int first, second;
+};
+inline Neighbours wrapped_pair(double i, int n, Wrap wrap) {
+  if (i >= 0 && i + 1 < n) return {int(i), int(i) + 1};
+  const int first = wrapped(i, n, wrap);
+  if (wrap == Wrap::repeat) return {first, first + 1 < n ? first + 1 : 0};
+  return {first, wrapped(i + 1, n, wrap)};
+}
+
+template <class Read>
+inline Texel on_level(const TextureRecord& texture, int number, const Vec2<double>& uv, const TextureMap& map,
+                      const Read& read) {
   const Texture::Level& level = texture.levels[number];
   const double x = uv.x * level.width, y = (1 - uv.y) * level.height;
+  const auto at = [&](int i, int j) { return read(first_number(texture, level, i, j)); };
   if (map.nearest)
-    return texel_at(texture, level, wrapped(floor_of(x), level.width, map.wrap_u),
-                    wrapped(floor_of(y), level.height, map.wrap_v));
+    return at(wrapped(floor_of(x), level.width, map.wrap_u), wrapped(floor_of(y), level.height, map.wrap_v));
   const double left = floor_of(x - 0.5), top = floor_of(y - 0.5), fx = x - 0.5 - left, fy = y - 0.5 - top;
-  const int x0 = wrapped(left, level.width, map.wrap_u), x1 = wrapped(left + 1, level.width, map.wrap_u),
-            y0 = wrapped(top, level.height, map.wrap_v), y1 = wrapped(top + 1, level.height, map.wrap_v);
+  const Neighbours column = wrapped_pair(left, level.width, map.wrap_u),
+                   row = wrapped_pair(top, level.height, map.wrap_v);
   Texel sum{};
-  add(sum, (1 - fx) * (1 - fy), texel_at(texture, level, x0, y0));
-  add(sum, fx * (1 - fy), texel_at(texture, level, x1, y0));
-  add(sum, (1 - fx) * fy, texel_at(texture, level, x0, y1));
-  add(sum, fx * fy, texel_at(texture, level, x1, y1));
+  add(sum, (1 - fx) * (1 - fy), at(column.first, row.first));
+  add(sum, fx * (1 - fy), at(column.second, row.first));
+  add(sum, (1 - fx) * fy, at(column.first, row.second));
+  add(sum, fx * fy, at(column.second, row.second));
   return sum;
 }
 
@@ -98,20 +138,24 @@ inline Texel look_up(const TextureRecord& texture, const Vec2<double>& uv, const
     const double swap = longer;
     longer = shorter, shorter = swap, along = footprint.minor;
   }
-  if (!(longer > 1)) return detail::on_level(texture, 0, uv, map);
+  if (!(longer > 1))
+    return detail::with_format(texture,
+                               [&](const auto& read) { return detail::on_level(texture, 0, uv, map, read); });
   const double ratio = longer / max(shorter, 1.0);
   const int taps = ratio >= detail::most_taps ? detail::most_taps : int(ratio + 0.999);
   const double detail_level = min(log2(max(longer / taps, 1.0)), double(texture.level_count - 1));
   const int finer = map.nearest ? int(detail_level + 0.5) : int(detail_level);
-  const double f = map.nearest ? 0.0 : detail_level - finer;
-  Texel sum{};
-  for (int tap = 0; tap < taps; ++tap) {
-    const double at = (2 * tap + 1.0) / taps - 1;  // -1 to 1
-    const Vec2<double> here{uv.x + at * along.x, uv.y + at * along.y};
-    detail::add(sum, (1 - f) / taps, detail::on_level(texture, finer, here, map));
-    if (f > 0) detail::add(sum, f / taps, detail::on_level(texture, finer + 1, here, map));
-  }
-  return sum;
+  const double f = map.nearest ? 0.0 : detail_level - finer, of_finer = (1 - f) / taps, of_coarser = f / taps;
+  return detail::with_format(texture, [&](const auto& read) {
+    Texel sum{};
+    for (int tap = 0; tap < taps; ++tap) {
+      const double at = (2 * tap + 1.0) / taps - 1;  // -1 to 1
+      const Vec2<double> here{uv.x + at * along.x, uv.y + at * along.y};
+      detail::add(sum, of_finer, detail::on_level(texture, finer, here, map, read));
+      if (f > 0) detail::add(sum, of_coarser, detail::on_level(texture, finer + 1, here, map, read));
+    }
+    return sum;
+  });
 }
 
 /// Of a map: its own coordinates of a surface's.
