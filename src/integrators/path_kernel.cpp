@@ -361,7 +361,8 @@ template <bool Seen> struct Work : Wavefront {
     F share(1);
     if (any(lit)) {
       const Vec3<F> start = select(dot(to_light, hits.G) > F(0), hits.front, hits.back);
-      open = shadows(shadow_rays(start, hits.P, to_light, search.clear), lit, share);
+      const ShadowWay way = shadow_way(start, hits.P, to_light, search.clear);
+      open = shadows(query_rays(start, way.d), number_cast<float>(way.length), lit, share);
       light = share * light;
     }
     for (std::uint32_t left = lane_bits(asked); left; left &= left - 1) {
@@ -390,8 +391,8 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   /// Which lanes the light reaches that was looked for. What is not wholly opaque leaves a part of it.
-  [[gnu::noinline]] std::uint32_t shadows(const ShadowRays& shadow, const Truth& lit, F& share) {
-    const auto& [rays, t_far] = shadow;
+  [[gnu::noinline]] std::uint32_t shadows(const QueryRay<Query>& rays, const Query& t_far, const Truth& lit,
+                                          F& share) {
     const std::uint32_t asked = lane_bits(lit);
     counts.shadow += std::uint64_t(__builtin_popcount(asked));
     if (frame.listener) tell(rays, asked, t_far);

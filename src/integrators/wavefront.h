@@ -558,19 +558,21 @@ struct Wavefront {
     return result;
   }
 
-  /// Shadow rays of a packet.
-  struct ShadowRays {
-    QueryRay<Query> rays;
-    Query t_far;
+  /// The way of a shadow ray, which must be clear as far as `length`.
+  struct ShadowWay {
+    Vec3<F> d;
+    F length;
   };
   /// From `start`, off the surface, to the end of the way that must be clear, P + clear L. Rays start beside
   /// P: along L one that is lifted would go that much too far, into a light with extent.
-  static ShadowRays shadow_rays(const Vec3<F>& start, const Vec3<F>& P, const Vec3<F>& L, const F& clear) {
+  static ShadowWay shadow_way(const Vec3<F>& start, const Vec3<F>& P, const Vec3<F>& L, const F& clear) {
     const Truth finite = clear < F(__builtin_inf());
     const Vec3<F> way = P + select(finite, clear, F(0)) * L - start;
     const F r = length(way);
-    const Vec3<F> d = select(both(finite, r > F(0)), (F(1) / r) * way, L);
-    return {{number_cast<float>(start), number_cast<float>(d)}, number_cast<float>(select(finite, r, clear))};
+    return {select(both(finite, r > F(0)), (F(1) / r) * way, L), select(finite, r, clear)};
+  }
+  static QueryRay<Query> query_rays(const Vec3<F>& start, const Vec3<F>& d) {
+    return {number_cast<float>(start), number_cast<float>(d)};
   }
 
   bool all_opaque() const {

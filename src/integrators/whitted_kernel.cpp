@@ -114,7 +114,10 @@ template <bool Seen> struct Work : Wavefront {
         if (depth == 1 && task.first_hits)
           for (int i = 0; i < block.count; ++i) note_first_hits(block.at[i], block.hits[i]);
       }
-      for (int i = 0; i < point_count; ++i) look_at_light(i, block);
+      for (int i = 0; i < point_count; ++i) {
+        if (frame.light_points[scratch.reaching[i]].extended) look_at_light<true>(i, block);
+        else look_at_light<false>(i, block);
+      }
       for (int i = 0; i < block.count; ++i) {
         with_model(ModelId(way_to_shade_of(group)), [&]<class Model>() { shade<Model>(block, i); });
         if (follow_on) follow(block.at[i], block.hits[i]);
@@ -199,20 +202,28 @@ template <bool Seen> struct Work : Wavefront {
   }
 
   LightSample<F, C> sample_point(const LightPoint& point, const Vec3<F>& P) const {
-    auto result = with_light(frame.lights[point.light],
-                             [&](const auto& light) { return sample(light, P, F(point.u), F(point.v)); });
+    return sample_point(point, P, [](const auto&) { return true; });
+  }
+  /// may_be(light): whether it can be of that kind at all; what cannot be makes no code.
+  template <class MayBe>
+  LightSample<F, C> sample_point(const LightPoint& point, const Vec3<F>& P, const MayBe& may_be) const {
+    auto result = with_light(frame.lights[point.light], [&](const auto& light) {
+      if (!may_be(light)) __builtin_unreachable();
+      return sample(light, P, F(point.u), F(point.v));
+    });
     if (point.share != 1) result.I = F(point.share) * result.I;
     return result;
   }
 
-  static ShadowRays shadow_of(const Hits& hits, const LightSample<F, C>& light, const LightPoint& point) {
-    if (point.extended) return shadow_rays(hits.front, hits.P, light.L, light.clear);
-    return {{number_cast<float>(hits.front), number_cast<float>(light.L)}, number_cast<float>(light.r)};
+  /// From hits.front.
+  static ShadowWay way_to(const LightSample<F, C>& light, const LightPoint& point, const Hits& hits) {
+    if (point.extended) return shadow_way(hits.front, hits.P, light.L, light.clear);
+    return {light.L, light.r};
   }
 
   /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
   /// surface (N.L <= 0) or dark in this direction.
-  LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
+  template <bool extended> LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
     const LightPoint& point = frame.light_points[scratch.reaching[number]];
     std::uint32_t* open_bits = &scratch.open[std::size_t(number) * beam];
     QueryRay<Query> rays[beam];
@@ -221,13 +232,19 @@ template <bool Seen> struct Work : Wavefront {
     int packet[beam], asked = 0;
     for (int i = 0; i < block.count; ++i) {
       const Hits& hits = block.hits[i];
-      const auto light = sample_point(point, hits.P);
+      const auto light =
+          sample_point(point, hits.P, []<class Light>(const Light&) { return HasExtent<Light> == extended; });
       const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
       open_bits[i] = lane_bits(lit);
       if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
-      const ShadowRays shadow = shadow_of(hits, light, point);
-      rays[asked] = shadow.rays;
-      t_far[asked] = shadow.t_far;
+      if constexpr (extended) {
+        const ShadowWay way = way_to(light, point, hits);
+        rays[asked] = query_rays(hits.front, way.d);
+        t_far[asked] = number_cast<float>(way.length);
+      } else {
+        rays[asked] = query_rays(hits.front, light.L);
+        t_far[asked] = number_cast<float>(light.r);
+      }
       open[asked] = mask_cast<std::int32_t>(lit);
       counts.shadow += std::uint64_t(__builtin_popcount(open_bits[i]));
       if (frame.listener) tell(rays[asked], open_bits[i], t_far[asked]);
@@ -293,16 +310,20 @@ template <bool Seen> struct Work : Wavefront {
                       const LightPoint& point) const {
     const C passes = grey(gather<F>([&](int k) { return open >> k & 1 ? 1.0 : 0.0; }));
     if (all_opaque() || !frame.whitted.shadows) return passes;
-    return passes * transmittance(open, shadow_of(hits, light, point));
+    return passes * transmittance(open, hits, light, point);
   }
 
   /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
   /// order in which the ray meets them.
-  [[gnu::noinline]] C transmittance(std::uint32_t open, const ShadowRays& shadow) const {
+  [[gnu::noinline]] C transmittance(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light,
+                                    const LightPoint& point) const {
+    const ShadowWay way = way_to(light, point, hits);
+    const QueryRay<Query> rays = query_rays(hits.front, way.d);
+    const Query t_far = number_cast<float>(way.length);
     double left[color_channels][lanes] = {};
     for (; open; open &= open - 1) {
       const int k = __builtin_ctz(open);
-      const Rgb one = what_passes(lane(shadow.rays, k), lane(shadow.t_far, k),
+      const Rgb one = what_passes(lane(rays, k), lane(t_far, k),
                                   [&](const auto&... surface) { return share_through(frame, surface...); });
       for (int c = 0; c < color_channels; ++c) left[c][k] = one[c];
     }
@@ -470,7 +491,9 @@ template <bool Seen> struct Work : Wavefront {
     const LightPoint& point = frame.light_points[p];
     const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
     const auto light = sample_point(point, hits.P);
-    const ShadowRays shadow = shadow_of(hits, light, point);
+    const ShadowWay way = way_to(light, point, hits);
+    const QueryRay<Query> shadow = query_rays(hits.front, way.d);
+    const Query t_far = number_cast<float>(way.length);
     const F faded = attenuate(attenuation, light.r, F(frame.minimum_distance));
     const C share = share_that_passes(open, hits, light, point), arriving = share * (faded * light.I);
     const std::uint32_t asked =
@@ -481,9 +504,8 @@ template <bool Seen> struct Work : Wavefront {
           {scratch.rays.number[at.ray[k]], p, bool(open >> k & 1), frame.whitted.shadows && (asked >> k & 1),
            lane_vector(light.L, k), lane(light.r, k), lane_color(light.I, k), lane(faded, k),
            lane_color(share, k), lane_color(arriving, k),
-           cast<double>(
-               Vec3<float>{lane(shadow.rays.d.x, k), lane(shadow.rays.d.y, k), lane(shadow.rays.d.z, k)}),
-           double(lane(shadow.t_far, k))});
+           cast<double>(Vec3<float>{lane(shadow.d.x, k), lane(shadow.d.y, k), lane(shadow.d.z, k)}),
+           double(lane(t_far, k))});
   }
   void tell_colors(const Lanes& at, const C& color) const {
     for (int k = 0; k < at.count; ++k)

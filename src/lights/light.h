@@ -79,9 +79,15 @@ inline namespace LAMBENT_ISA {
 /// L and r for a light at `position`. At the light itself there is no direction: L is then zero, and N.L with
 /// it.
 template <class F> LightSample<F, Color<F>> towards(const Vec3<F>& position, const Vec3<F>& P) {
+  LightSample<F, Color<F>> out;  // number by number: given as a list, all of it would be cleared first
   const Vec3<F> way = position - P;
   const F r = length(way);
-  return {select(r > F(0), (F(1) / r) * way, Vec3<F>{F(0), F(0), F(0)}), r, Color<F>{}, F(0), r};
+  out.L = select(r > F(0), (F(1) / r) * way, Vec3<F>{F(0), F(0), F(0)});
+  out.r = r;
+  for (int c = 0; c < color_channels; ++c) out.I[c] = F(0);
+  out.density = F(0);
+  out.clear = r;
+  return out;
 }
 
 template <class F> Color<F> emitted(const Rgb& color, double intensity) {
