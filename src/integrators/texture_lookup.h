@@ -40,8 +40,6 @@ inline double floor_of(double x) { return __builtin_floor(x); }
 
 /// Texel i of n, as the texture goes on beyond its ends.
 inline int wrapped(double i, int n, Wrap wrap) {
-  if (i >= 0 && i < n) [[likely]]
-    return int(i);
   if (wrap == Wrap::clamp) return int(min(max(i, 0.0), double(n - 1)));
   const double period = wrap == Wrap::mirror ? 2.0 * n : double(n);
   double in = i - period * floor_of(i / period);

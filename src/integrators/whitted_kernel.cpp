@@ -237,8 +237,9 @@ template <bool Seen> struct Work : Wavefront {
       const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
       open_bits[i] = lane_bits(lit);
       if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
+      // Not by way_to(): that way, compilers copy what they could build where it stands.
       if constexpr (extended) {
-        const ShadowWay way = way_to(light, point, hits);
+        const ShadowWay way = shadow_way(hits.front, hits.P, light.L, light.clear);
         rays[asked] = query_rays(hits.front, way.d);
         t_far[asked] = number_cast<float>(way.length);
       } else {

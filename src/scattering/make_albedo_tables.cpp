@@ -18,6 +18,10 @@
 namespace {
 
 double root_of(double c, double alpha) { return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c); }
+/// The cosine that is z of its root_of().
+double cosine_of(double z, double alpha) {
+  return std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
+}
 
 /// Calls f(V.H, N.H, weight) for n x n visible normals (Dupuy and Benyoub 2023), by half a turn. They lie
 /// denser where they lean far, as the tail of GGX is long. Each turn is shifted by the golden ratio against
@@ -205,7 +209,7 @@ class GlassTable {
                  q = x / below, root = 2 * q / (1.25 - 0.5 * q);
     const double z = x > below ? critical + (1 - critical) * (x - below) / (1 - below)
                                : critical * (q < 0.5 ? root * root / 2 : 1 - 2 * (1 - q) * (1 - q));
-    return std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
+    return cosine_of(z, alpha);
   }
   void add(int inside, double i, double j, double k) {
     const double share = k / (nt - 1), t = 0.02 + 0.48 * share * share, eta = (1 + t) / (1 - t);
@@ -281,11 +285,8 @@ int main() {
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; j <= steps; ++j) {
       const double s = double(i) / steps, r = double(j) / steps, alpha = std::pow(std::max(r, 0.01), 2);
-      const double z = s * s,
-                   mu =
-                       std::min(alpha * z / std::sqrt(std::max(1 - (1 - alpha * alpha) * z * z, 1e-18)), 1.0);
       add_powers(basis, s, r, E_x, degree);
-      values.push_back(i == 0 ? 1 : mirror_albedo(mu, alpha, 200).E);
+      values.push_back(i == 0 ? 1 : mirror_albedo(cosine_of(s * s, alpha), alpha, 200).E);
       // A smooth surface loses little, and at grazing angles only: what the fit loses elsewhere would be most
       // of it.
       stress.push_back(1 + 6 * std::pow(s, 12) * std::pow(1 - r, 4));
