@@ -110,8 +110,11 @@ struct PacketBeam {
     return !any(apart);
   }
 
-  /// False where the rays do not all go the same way; then this is no beam.
-  template <class F> bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far, int count) {
+  /// False where the rays do not all go the same way; then this is no beam. In line, as a packet that enters
+  /// an instance asks little more of it.
+  template <class F>
+  __attribute__((always_inline)) bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far,
+                                          int count) {
     const F zero(0.f);
     for (int a = 0; a < 3; ++a) {
       const auto of = [a](const auto& v) { return a == 0 ? v.x : a == 1 ? v.y : v.z; };
@@ -169,32 +172,35 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
     int child;  // -1: the node itself
   } stack[max_stack];
   int size = 0;
-  std::uint32_t at_node = bvh.root;
-  int at_child = -1;
+  Entry at{0.f, bvh.root, -1};
   for (;;) {
-    const BvhNode& node = world.nodes[at_node];
-    if (at_child >= 0) {
-      leaf(BvhChild{node.first[at_child], node.count[at_child], node.kind[at_child]}, node, at_child);
+    const BvhNode& node = world.nodes[at.node];
+    if (at.child >= 0) {
+      leaf(BvhChild{node.first[at.child], node.count[at.child], node.kind[at.child]}, node, at.child);
     } else {
       NodeLanes near;
       std::uint32_t met = beam.meets(node, t_far, near);
+      const auto enter = [&](int i, float distance) {
+        return node.count[i] > 0 ? Entry{distance, at.node, i} : Entry{distance, node.first[i], -1};
+      };
+      if (met && (met & (met - 1)) == 0) {  // One alone, as most often: there is nothing to sort.
+        at = enter(__builtin_ctz(met), 0.f);
+        continue;
+      }
       float distance[bvh_width];
       near.store(distance);
       const int bottom = size;
       for (; met; met &= met - 1) {
         const int i = __builtin_ctz(met);
-        int at = size++;
-        for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
-        stack[at] =
-            node.count[i] > 0 ? Entry{distance[i], at_node, i} : Entry{distance[i], node.first[i], -1};
+        int to = size++;
+        for (; to > bottom && stack[to - 1].near < distance[i]; --to) stack[to] = stack[to - 1];
+        stack[to] = enter(i, distance[i]);
       }
     }
     do {
       if (size == 0) return;
-      --size;
-    } while (!(stack[size].near <= t_far));
-    at_node = stack[size].node;
-    at_child = stack[size].child;
+      at = stack[--size];
+    } while (!(at.near <= t_far));
   }
 }
 
@@ -252,6 +258,15 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
   } else {
     BoxRay<F> box_rays[max_packets];
     for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
+    if (count ==
+        1) {  // Of the packets that enter an instance many pass by it, and a box costs less than a beam.
+      const auto side = [&](int row) {
+        const Vec3<float>& corner = row < 3 ? bvh.lower : bvh.upper;
+        return F(row % 3 == 0 ? corner.x : row % 3 == 1 ? corner.y : corner.z);
+      };
+      F near;
+      if (!any(box_rays[0].meets(side, t_far[0], near))) return;
+    }
     // All packets as one beam, or else each as one, or else box by box.
     const auto send = [&](int first, int size) {
       const auto farthest = [&] {
