@@ -325,13 +325,13 @@ def write_waves(sides, file):
     """A square of 2 x 2 in waves, cut into sides x sides quadrangles of two triangles each; with everything."""
     def rows(line):
         for j in range(sides + 1):
-            file.write("".join(line(i / sides, j / sides) for i in range(sides + 1)))
+            file.write("".join(line(i / sides, j / sides) for i in range(sides + 1)).encode())
 
     def normal(u, v):
         x, _, z = unit((-0.5 * math.cos(20 * u) * math.cos(17 * v), 1, 0.425 * math.sin(20 * u) * math.sin(17 * v)))
         return f"vn {x:.4f} {math.sqrt(1 - x * x - z * z):.4f} {z:.4f}\n"
 
-    file.write("o waves\n")
+    file.write(b"o waves\n")
     rows(lambda u, v: f"v {2 * u - 1:.6f} {0.05 * math.sin(20 * u) * math.cos(17 * v):.6f} {2 * v - 1:.6f}\n")
     rows(lambda u, v: f"vt {u:.6f} {v:.6f}\n")
     rows(normal)
@@ -341,7 +341,7 @@ def write_waves(sides, file):
             a = j * (sides + 1) + i + 1
             b, c, d = (f"{k}/{k}/{k}" for k in (a + 1, a + sides + 1, a + sides + 2))
             lines.append(f"f {a}/{a}/{a} {c} {d}\nf {a}/{a}/{a} {d} {b}\n")
-        file.write("".join(lines))
+        file.write("".join(lines).encode())
 
 
 def main():

@@ -208,24 +208,30 @@ LayerBook::LayerBook(const Scene& scene, const LayerPlan& plan, int samples)
     for (const double wavelength : scene.spectral.wavelengths)
       channels_.push_back(wavelength_name(wavelength));
   channels_.insert(channels_.end(), std::begin(data_names), std::end(data_names));
-  for (const std::string& name : object_names(scene)) object_ids_.push_back(cryptomatte_id(name));
-  for (const std::string& name : material_names(scene)) material_ids_.push_back(cryptomatte_id(name));
-  add_cryptomatte("CryptoObject", object_names(scene));
-  add_cryptomatte("CryptoMaterial", material_names(scene));
+  object_ids_ = add_cryptomatte("CryptoObject", object_names(scene));
+  material_ids_ = add_cryptomatte("CryptoMaterial", material_names(scene));
 }
 
-void LayerBook::add_cryptomatte(const std::string& name, const std::vector<std::string>& names) {
+std::vector<float> LayerBook::add_cryptomatte(const std::string& name,
+                                              const std::vector<std::string>& names) {
   for (int level = 0; level < crypto_levels_; ++level)
     for (const char* channel : {".R", ".G", ".B", ".A"})
       channels_.push_back(name + "0" + std::to_string(level) + channel);
-  nlohmann::ordered_json manifest = nlohmann::ordered_json::object();
-  for (const std::string& one : names) manifest[one] = hex(std::bit_cast<std::uint32_t>(cryptomatte_id(one)));
+  std::vector<float> ids;
+  nlohmann::ordered_json::object_t manifest;
+  for (const std::string& one : names) {
+    ids.push_back(cryptomatte_id(one));
+    // No two names are alike: there is none to look for before this one is added.
+    manifest.emplace_back(one, hex(std::bit_cast<std::uint32_t>(ids.back())));
+  }
   const std::string key = "cryptomatte/" + hex(murmur3(name)).substr(0, 7) + "/";
   metadata_.emplace_back(key + "name", name);
   metadata_.emplace_back(key + "hash", "MurmurHash3_32");
   metadata_.emplace_back(key + "conversion", "uint32_to_float32");
   metadata_.emplace_back(key + "manifest",
-                         manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+                         nlohmann::ordered_json(std::move(manifest))
+                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return ids;
 }
 
 void LayerBook::write_shares(Shares& shares, float* to) const {

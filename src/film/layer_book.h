@@ -56,7 +56,8 @@ class LayerBook {
   void merge(const float* const corners[4], float* pixel) const;
 
  private:
-  void add_cryptomatte(const std::string& name, const std::vector<std::string>& names);
+  /// Returns the names' ids.
+  std::vector<float> add_cryptomatte(const std::string& name, const std::vector<std::string>& names);
   void write_layers(const double* layers, double scale, Work& work, float* pixel) const;
   void write_shares(Shares& shares, float* to) const;
 
