@@ -1,15 +1,13 @@
 #include "scenefile/document.h"
 
-#include <yaml-cpp/depthguard.h>
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/exceptions.h>
-#include <yaml-cpp/mark.h>
-#include <yaml-cpp/parser.h>
+#include <yaml.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <map>
-#include <sstream>
+#include <memory>
+#include <optional>
 
 #include "scenefile/nearest.h"
 
@@ -26,7 +24,7 @@ std::vector<std::string> split_lines(std::string_view text) {
   }
 }
 
-/// With line breaks of one kind only: yaml-cpp does not count a lone carriage return as a line.
+/// With line breaks of one kind only, which split_lines() knows.
 std::string with_newlines(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -37,141 +35,263 @@ std::string with_newlines(std::string_view text) {
   return result;
 }
 
-/// Builds the tree from yaml-cpp's events.
-class TreeBuilder : public YAML::EventHandler {
+/// Whether a byte goes on with the character before it.
+bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
+
+/// A place in a text, as a Node's.
+struct Spot {
+  int line = 1, column = 1, character = 1;
+};
+void put(Node& node, const Spot& spot) {
+  node.line = spot.line, node.column = spot.column, node.character = spot.character;
+}
+
+/// What keeps a text from being YAML.
+struct NotYaml {
+  Spot spot;
+  std::string message, hint;
+};
+
+/// Makes spots of libyaml's marks, which count lines and characters from 0.
+class Spots {
  public:
-  TreeBuilder(Document& document, int source) : document_(document), source_(source) {}
+  explicit Spots(const std::vector<std::string>& lines) : lines_(lines) {}
 
-  Node* root = nullptr;
-
-  void OnDocumentStart(const YAML::Mark&) override {}
-  void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Node* node = add(mark, anchor, Node::Kind::nothing, {});
-    if (!open_.empty() && open_.back()->kind == Node::Kind::list) go_to_dash(*node);
+  Spot at(const yaml_mark_t& mark) {
+    if (mark.line >= lines_.size()) return in_line(lines_.size() - 1, lines_.back().size());
+    const std::string& text = lines_[mark.line];
+    if (mark.line != line_ || mark.column < characters_) line_ = mark.line, characters_ = byte_ = 0;
+    // From the last one on: a line may hold a whole scene.
+    for (; characters_ < mark.column && byte_ < text.size(); ++characters_)
+      for (++byte_; byte_ < text.size() && is_tail(text[byte_]);) ++byte_;
+    return {int(line_) + 1, int(byte_) + 1, int(characters_) + 1};
   }
-  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Node* node = anchored_.count(anchor) ? anchored_[anchor] : nullptr;
-    if (node == nullptr || std::find(open_.begin(), open_.end(), node) != open_.end())
-      throw YAML::ParserException(mark, "this alias stands inside the value that it names");
+  /// Behind the first `bytes` bytes.
+  Spot behind(std::size_t bytes) const {
+    std::size_t line = 0;
+    for (; line + 1 < lines_.size() && bytes > lines_[line].size(); ++line) bytes -= lines_[line].size() + 1;
+    return in_line(line, std::min(bytes, lines_[line].size()));
+  }
+  /// Whether nothing follows but space.
+  bool is_end(const Spot& spot) const {
+    const auto blank = [](const std::string& text, std::size_t from) {
+      return text.find_first_not_of(" \t", from) == std::string::npos;
+    };
+    return blank(lines_[std::size_t(spot.line) - 1], std::size_t(spot.column) - 1) &&
+           std::all_of(lines_.begin() + spot.line, lines_.end(),
+                       [&](const std::string& text) { return blank(text, 0); });
+  }
+  const std::string& line(const Spot& spot) const { return lines_[std::size_t(spot.line) - 1]; }
+  char byte(const Spot& spot) const {
+    return std::size_t(spot.column) <= line(spot).size() ? line(spot)[std::size_t(spot.column) - 1] : '\n';
+  }
+
+ private:
+  Spot in_line(std::size_t line, std::size_t byte) const {
+    const std::string& text = lines_[line];
+    const auto tails = std::count_if(text.begin(), text.begin() + long(byte), is_tail);
+    return {int(line) + 1, int(byte) + 1, int(byte) - int(tails) + 1};
+  }
+
+  const std::vector<std::string>& lines_;
+  std::size_t line_ = 0, characters_ = 0, byte_ = 0;  ///< The last spot.
+};
+
+/// What to do about libyaml's terse complaints. Most are about what it found where something had to end; then
+/// the place where that began says more.
+struct Complaint {
+  const char *context, *problem;  ///< As libyaml words them; null: any.
+  const char* hint;
+  bool at_context = false;  ///< Best shown where the thing began, if all of the text is in it.
+};
+constexpr Complaint complaints[] = {
+    {"while parsing a flow sequence", nullptr,
+     "a list that opens with [ must close with ], with commas between its elements", true},
+    {"while parsing a flow mapping", nullptr,
+     "a mapping that opens with { must close with }, with commas between its keys", true},
+    {"while parsing a block mapping", nullptr,
+     "keys that belong together start in the same column, each with a colon and a space"},
+    {"while parsing a block collection", nullptr,
+     "elements of a list start in the same column, each with '- '"},
+    {"while scanning a simple key", nullptr, "a key is followed by a colon and a space, in the same line"},
+    {"while scanning a quoted scalar", "found unexpected end of stream", "a quote is not closed", true},
+    {"while scanning a quoted scalar", "found unexpected document indicator", "a quote is not closed", true},
+    {"while parsing a quoted scalar", nullptr,
+     "in double quotes a backslash begins an escape such as \\n; text in single quotes is taken as it is"},
+    {nullptr, "mapping values are not allowed in this context",
+     "text with ': ' in it needs quotes; keys that belong together start in the same column"},
+    {nullptr, "block sequence entries are not allowed in this context",
+     "a list begins in a line of its own, each element with '- '"},
+    {nullptr, "found character that cannot start any token",
+     "text that begins with a special character needs quotes"},
+};
+
+/// libyaml takes the text apart, event by event; this builds the tree.
+class TreeBuilder {
+ public:
+  TreeBuilder(Document& document, int source, std::string_view text)
+      : document_(document), source_(source), spots_(document.sources[std::size_t(source)].lines) {
+    if (!yaml_parser_initialize(&parser_)) throw std::bad_alloc();
+    yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
+  }
+  ~TreeBuilder() { yaml_parser_delete(&parser_); }
+  TreeBuilder(const TreeBuilder&) = delete;
+  TreeBuilder& operator=(const TreeBuilder&) = delete;
+
+  /// The text's value, or null where there is none. Throws NotYaml.
+  Node* build() {
+    while (take_event()) {
+    }
+    return root_;
+  }
+
+ private:
+  /// False at the end.
+  bool take_event() {
+    yaml_event_t event;
+    if (!yaml_parser_parse(&parser_, &event)) complain();
+    const std::unique_ptr<yaml_event_t, decltype(&yaml_event_delete)> kept(&event, yaml_event_delete);
+    switch (event.type) {
+      case YAML_DOCUMENT_START_EVENT:
+        if (++documents_ > 1)
+          throw NotYaml{spots_.at(event.start_mark), "a second YAML document begins here",
+                        "a scene file holds one; remove the line '---' and what follows"};
+        break;
+      case YAML_ALIAS_EVENT:
+        attach_alias(event);
+        break;
+      case YAML_SCALAR_EVENT:
+        add_scalar(event);
+        break;
+      case YAML_SEQUENCE_START_EVENT:
+        open(add(event, Node::Kind::list, event.data.sequence_start.anchor, event.data.sequence_start.tag));
+        break;
+      case YAML_MAPPING_START_EVENT:
+        open(add(event, Node::Kind::mapping, event.data.mapping_start.anchor, event.data.mapping_start.tag));
+        break;
+      case YAML_SEQUENCE_END_EVENT:
+      case YAML_MAPPING_END_EVENT:
+        open_.pop_back();
+        break;
+      default:
+        break;
+    }
+    return event.type != YAML_STREAM_END_EVENT;
+  }
+
+  static const char* text_of(const yaml_char_t* text) { return reinterpret_cast<const char*>(text); }
+
+  void add_scalar(const yaml_event_t& event) {
+    const auto& scalar = event.data.scalar;
+    const std::string_view value(text_of(scalar.value), scalar.length);
+    const bool plain = scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    static constexpr std::string_view nothing[] = {"", "~", "null", "Null", "NULL"};
+    if (plain && !scalar.tag &&
+        std::find(std::begin(nothing), std::end(nothing), value) != std::end(nothing)) {
+      Node* node = add(event, Node::Kind::nothing, scalar.anchor, nullptr);
+      // An empty element stands behind its dash; people look for the dash.
+      const bool behind_dash = value.empty() && node->column > 1 &&
+                               spots_.byte({node->line, node->column - 1, node->character - 1}) == '-';
+      if (behind_dash) --node->column, --node->character;
+      return;
+    }
+    Node* node = add(event, Node::Kind::text, scalar.anchor, scalar.tag);
+    node->text = value;
+    node->quoted = scalar.tag ? node->tag.empty() : !plain;
+  }
+  void attach_alias(const yaml_event_t& event) {
+    const std::string name = text_of(event.data.alias.anchor);
+    const auto found = anchored_.find(name);
+    if (found == anchored_.end())
+      throw NotYaml{spots_.at(event.start_mark),
+                    "this is not YAML: no value before this one is named &" + name,
+                    "an alias *" + name + " repeats a value that was written as &" + name + " ..."};
+    Node* node = found->second;
+    if (std::find(open_.begin(), open_.end(), node) != open_.end())
+      throw NotYaml{spots_.at(event.start_mark),
+                    "this is not YAML: this alias stands inside the value that it names",
+                    {}};
     node->shared = true;
     attach(node);
   }
-  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                const std::string& value) override {
-    Node* node = add(mark, anchor, Node::Kind::text, tag);
-    node->text = value;
-    node->quoted = tag == "!";
-  }
-  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                       YAML::EmitterStyle::value) override {
-    open_.push_back(add(mark, anchor, Node::Kind::list, tag));
-  }
-  void OnSequenceEnd() override { open_.pop_back(); }
-  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
-    open_.push_back(add(mark, anchor, Node::Kind::mapping, tag));
-  }
-  void OnMapEnd() override { open_.pop_back(); }
-
- private:
-  Node* add(const YAML::Mark& mark, YAML::anchor_t anchor, Node::Kind kind, const std::string& tag) {
+  Node* add(const yaml_event_t& event, Node::Kind kind, const yaml_char_t* anchor, const yaml_char_t* tag) {
     Node& node = document_.nodes.emplace_back();
     node.kind = kind;
     node.source = source_;
-    node.line = mark.line + 1;
-    node.column = mark.column + 1;
-    if (tag != "?" && tag != "!") {  // these two mean "no tag": plain and quoted
-      const std::string standard = "tag:yaml.org,2002:";
-      node.tag = tag.compare(0, standard.size(), standard) == 0 ? "!!" + tag.substr(standard.size()) : tag;
+    put(node, spots_.at(event.start_mark));
+    if (tag && std::strcmp(text_of(tag), "!") != 0) {  // that one means "no tag: text"
+      const std::string_view standard = "tag:yaml.org,2002:", whole = text_of(tag);
+      node.tag = whole.starts_with(standard) ? "!!" + std::string(whole.substr(standard.size())) : whole;
     }
-    if (anchor != YAML::NullAnchor) anchored_[anchor] = &node;
+    if (anchor) anchored_[text_of(anchor)] = &node;
     attach(&node);
     return &node;
   }
   void attach(Node* node) {
-    if (open_.empty()) root = node;
+    if (open_.empty()) root_ = node;
     else open_.back()->children.push_back(node);
   }
-  /// yaml-cpp places an empty element at whatever follows it; people look for its dash.
-  void go_to_dash(Node& node) const {
-    const auto& lines = document_.sources[source_].lines;
-    for (int line = std::min<int>(node.line, int(lines.size())); line >= 1; --line) {
-      const std::string& text = lines[line - 1];
-      const std::size_t comment = std::min(text.find(" #"), text.size());
-      const std::size_t last = text.find_last_not_of(" \t", comment == 0 ? 0 : comment - 1);
-      if (last == std::string::npos || text[last] != '-') continue;
-      node.line = line;
-      node.column = int(last) + 1;
-      return;
+  void open(Node* node) {
+    constexpr std::size_t deepest = 500;  // the readers of values go as deep as these
+    if (open_.size() >= deepest)
+      throw NotYaml{{node->line, node->column, node->character}, "the YAML is nested too deeply", {}};
+    open_.push_back(node);
+  }
+
+  [[noreturn]] void complain() {
+    if (parser_.error == YAML_MEMORY_ERROR) throw std::bad_alloc();
+    const std::string problem = parser_.problem ? parser_.problem : "it cannot be read";
+    if (parser_.error == YAML_READER_ERROR)
+      throw NotYaml{spots_.behind(parser_.problem_offset), "this is not YAML: " + problem,
+                    "scene files are UTF-8 text"};
+    Spot spot = spots_.at(parser_.problem_mark);
+    std::string message = "this is not YAML: " + problem, hint;
+    const std::string context = parser_.context ? parser_.context : "";
+    const std::string& line = spots_.line(spot);
+    const char found = spots_.byte(spot);
+    if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos) {
+      hint = "indent with spaces, not with tabs";
+    } else if ((found == ']' || found == '}') && context.find("flow sequence") == std::string::npos &&
+               context.find("flow mapping") == std::string::npos) {
+      hint = "there is one closing bracket too many, or of the wrong kind";
+    } else {
+      for (const Complaint& one : complaints) {
+        if ((one.context && context != one.context) || (one.problem && problem != one.problem)) continue;
+        hint = one.hint;
+        if (one.at_context && spots_.is_end(spot)) spot = spots_.at(parser_.context_mark);
+        break;
+      }
     }
+    throw NotYaml{spot, std::move(message), std::move(hint)};
   }
 
   Document& document_;
   int source_;
+  Spots spots_;
+  yaml_parser_t parser_;
+  int documents_ = 0;
+  Node* root_ = nullptr;
   std::vector<Node*> open_;
-  std::map<YAML::anchor_t, Node*> anchored_;
+  std::map<std::string, Node*> anchored_;
 };
 
-/// What to do about yaml-cpp's terse complaints.
-std::string remedy(const std::string& complaint) {
-  using namespace YAML::ErrorMsg;
-  if (complaint == MAP_VALUE || complaint == MAP_KEY)
-    return "text with ': ' in it needs quotes; keys that belong together start in the same column";
-  if (complaint == END_OF_MAP)
-    return "keys that belong together start in the same column, each with a colon and a space";
-  if (complaint == END_OF_SEQ) return "elements of a list start in the same column, each with '- '";
-  if (complaint == END_OF_MAP_FLOW)
-    return "a mapping that opens with { must close with }, with commas between its keys";
-  if (complaint == END_OF_SEQ_FLOW)
-    return "a list that opens with [ must close with ], with commas between its elements";
-  if (complaint == FLOW_END) return "there is one closing bracket too many, or of the wrong kind";
-  if (complaint == TAB_IN_INDENTATION) return "indent with spaces, not with tabs";
-  if (complaint == EOF_IN_SCALAR) return "a quote is not closed";
-  if (complaint == UNKNOWN_TOKEN) return "text that begins with a special character needs quotes";
-  return {};
-}
-
-[[noreturn]] void fail(const Document& document, int source, int line, int column, std::string message,
+[[noreturn]] void fail(const Document& document, int source, const Spot& spot, std::string message,
                        std::string hint = {}) {
-  Node place;
-  place.source = source;
-  place.line = line;
-  place.column = column;
-  throw InputError(diagnostic_at(document, place, std::move(message), std::move(hint)));
+  Node node;
+  node.source = source;
+  put(node, spot);
+  throw InputError(diagnostic_at(document, node, std::move(message), std::move(hint)));
 }
 
 Node* parse_into(Document& document, std::string_view text, int source) {
-  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
-    const std::string_view before = text.substr(0, zero);
-    const int line = 1 + int(std::count(before.begin(), before.end(), '\n'));
-    const std::size_t start = before.rfind('\n') == std::string_view::npos ? 0 : before.rfind('\n') + 1;
-    fail(document, source, line, int(zero - start) + 1, "this is not a text file: it holds a byte of value 0",
-         "scene files are UTF-8 text");
-  }
-  TreeBuilder builder(document, source);
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    fail(document, source, Spots(document.sources[std::size_t(source)].lines).behind(zero),
+         "this is not a text file: it holds a byte of value 0", "scene files are UTF-8 text");
   try {
-    std::istringstream stream{std::string(text)};
-    YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) return nullptr;
-    Node* const root = builder.root;
-    if (parser.HandleNextDocument(builder))
-      fail(document, source, builder.root->line, builder.root->column, "a second YAML document begins here",
-           "a scene file holds one; remove the line '---' and what follows");
-    return root;
-  } catch (const YAML::Exception& error) {
-    // At the end of the text yaml-cpp points behind the last line.
-    const auto& lines = document.sources[source].lines;
-    const int line = std::clamp(error.mark.line + 1, 1, int(lines.size()));
-    const int column =
-        line == error.mark.line + 1 ? std::max(1, error.mark.column + 1) : int(lines[line - 1].size()) + 1;
-    const std::string& text_there = lines[std::size_t(line) - 1];
-    const bool tab =
-        text_there.substr(0, text_there.find_first_not_of(" \t")).find('\t') != std::string::npos;
-    const bool deep = dynamic_cast<const YAML::DeepRecursion*>(&error) != nullptr;
-    fail(document, source, line, column,
-         deep ? "the YAML is nested too deeply" : "this is not YAML: " + error.msg,
-         tab ? "indent with spaces, not with tabs" : remedy(error.msg));
+    return TreeBuilder(document, source, text).build();
+  } catch (const NotYaml& error) {
+    fail(document, source, error.spot, error.message, error.hint);
   }
 }
 
@@ -300,13 +420,6 @@ const Node* value_of(const Node& mapping, std::string_view key) {
   return nullptr;
 }
 
-namespace {
-
-/// Nodes count bytes, as carets do; an editor's columns are characters.
-bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-}  // namespace
-
 void show_line(Diagnostic& diagnostic, std::string_view line, int column) {
   constexpr std::size_t reach = 600;  // bytes: more than is shown
   const std::size_t at = std::min(std::size_t(std::max(0, column - 1)), line.size());
@@ -317,23 +430,19 @@ void show_line(Diagnostic& diagnostic, std::string_view line, int column) {
   diagnostic.caret_column = column > 0 ? column - int(begin) : 0;
 }
 
+Place place_of(const Document& document, const Node& node) {
+  const Source& source = document.sources[std::size_t(node.source)];
+  return source.is_file ? Place{source.name, node.line, node.character} : Place{source.name, 0, 0};
+}
+
 Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message, std::string hint) {
-  const Source& source = document.sources[node.source];
+  const Source& source = document.sources[std::size_t(node.source)];
   Diagnostic diagnostic;
   diagnostic.message = std::move(message);
   diagnostic.hint = std::move(hint);
-  diagnostic.place.file = source.name;
-  if (source.is_file) {
-    diagnostic.place.line = node.line;
-    diagnostic.place.column = node.column;
-  }
-  if (node.line >= 1 && node.line <= int(source.lines.size())) {
-    const std::string& line = source.lines[std::size_t(node.line) - 1];
-    show_line(diagnostic, line, node.column);
-    const auto before = std::min<std::size_t>(std::size_t(std::max(0, node.column - 1)), line.size());
-    if (source.is_file)
-      diagnostic.place.column -= int(std::count_if(line.begin(), line.begin() + long(before), is_tail));
-  }
+  diagnostic.place = place_of(document, node);
+  if (node.line >= 1 && node.line <= int(source.lines.size()))
+    show_line(diagnostic, source.lines[std::size_t(node.line) - 1], node.column);
   return diagnostic;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // YAML as a tree in which every value knows where it was written.
 //
-// yaml-cpp takes the text apart; its own tree is not used, because it keeps the first of two equal keys in
-// silence and does not tell "3" from 3.
+// libyaml takes the text apart. Libraries' own trees keep one of two equal keys in silence, and do not tell
+// "3" from 3.
 
 #include <deque>
 #include <string>
@@ -20,7 +20,8 @@ struct Node {
   bool quoted = false;          ///< Text in quotes: never a number.
   bool shared = false;          ///< Shown in several places by aliases.
   int source = 0;               ///< Index into Document::sources.
-  int line = 0, column = 0;     ///< From 1; 0 where it stands in no text.
+  int line = 0, column = 0;     ///< From 1; 0 where it stands in no text. Columns count bytes, as carets do,
+  int character = 0;            ///< and characters, as editors do.
   std::string text;             ///< Of Kind::text.
   std::string tag;              ///< "!!float" and the like, or empty.
   std::vector<Node*> children;  ///< A list's elements; a mapping's keys and values, in turn.
@@ -55,6 +56,9 @@ void apply_setting(Document& document, const std::string& path, const std::strin
 /// Lets a diagnostic show a line of its file with a caret under that column, from 1 in bytes. Of a very long
 /// line only what is near is kept: there may be a thousand errors in it.
 void show_line(Diagnostic& diagnostic, std::string_view line, int column);
+
+/// Where `node` stands, for people.
+Place place_of(const Document& document, const Node& node);
 
 /// A remark about `node`, with the line it stands in.
 Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message,

@@ -17,10 +17,6 @@
 namespace lambent {
 namespace {
 
-Place place_in(const Reader& reader, const Node& node) {
-  return diagnostic_at(reader.document(), node, {}).place;
-}
-
 /// `a` and `b`, two keys of one mapping, must not hold the same point.
 bool differ(Reader& reader, const Values& values, const char* a, const char* b, const Vec3<double>& at_a,
             const Vec3<double>& at_b) {
@@ -310,7 +306,7 @@ std::optional<std::uint32_t> read_image_file(Reader& reader, const Value& file, 
   const auto path = files.find(reader, file);
   if (!path) return {};
   Texture texture;
-  texture.source = {*path, *path, nullptr, place_in(reader, *file.node), true};
+  texture.source = {*path, *path, nullptr, place_of(reader.document(), *file.node), true};
   texture.srgb = srgb;
   textures.push_back(std::move(texture));
   return std::uint32_t(textures.size() - 1);
@@ -322,7 +318,7 @@ bool read_material(Reader& reader, const Value& value, const std::vector<Field>&
   const auto values = reader.mapping(value, fields, what);
   if (!values) return false;
   const std::size_t before = reader.count();
-  out.place = place_in(reader, *value.node);
+  out.place = place_of(reader.document(), *value.node);
   if (const Value* model = values->find("model")) {
     std::string word;
     if (reader.one_of(*model, names_of(format().models), word))
@@ -722,7 +718,7 @@ void ObjectReader::object(const Value& value, const std::string& default_name) {
 
   Object object;
   object.name = default_name;
-  object.place = place_in(reader_, *value.node);
+  object.place = place_of(reader_.document(), *value.node);
   if (const Value* name = values->find("name")) reader_.text(*name, "text", object.name);
   if (const Value* transform = values->find("transform"))
     read_transform(reader_, *transform, object.world_from_object);

@@ -365,7 +365,7 @@ void read_light(Reader& reader, const Value& value, std::size_t number, Scene& s
   if (!values) return;
   Light light;
   light.name = unique_name(reader, *values, fmt::format("light {}", number), taken);
-  light.place = diagnostic_at(reader.document(), *value.node, {}).place;
+  light.place = place_of(reader.document(), *value.node);
   const Value* first = nullptr;
   for (const Value& one : values->values) {
     if (one.key->text == "name") continue;
@@ -471,7 +471,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
   const Format& f = format();
   Node start;  // of an empty document
   start.kind = Node::Kind::mapping;
-  start.line = start.column = 1;
+  start.line = start.column = start.character = 1;
   const Value whole{
       document.root != nullptr && document.root->kind != Node::Kind::nothing ? document.root : &start,
       nullptr, "the scene"};

@@ -104,11 +104,49 @@ TEST(ReaderMessages, MergeKey) {
 
 TEST(ReaderMessages, NotYaml) {
   EXPECT_EQ(report(head + "image: {size: [1, 2}\n"),
-            R"(scene.yaml:3:20: error: this is not YAML: illegal flow end
+            R"(scene.yaml:3:20: error: this is not YAML: did not find expected ',' or ']'
     image: {size: [1, 2}
                        ^
+    hint: a list that opens with [ must close with ], with commas between its elements
+)");
+}
+
+TEST(ReaderMessages, WhereAThingIsNotClosedItsBeginningIsShown) {
+  EXPECT_EQ(report(head + "image: {size: [1, 2\n"),
+            R"(scene.yaml:3:15: error: this is not YAML: did not find expected ',' or ']'
+    image: {size: [1, 2
+                  ^
+    hint: a list that opens with [ must close with ], with commas between its elements
+)");
+  EXPECT_EQ(report(head + "background: \"#fff\n\n"),
+            R"(scene.yaml:3:13: error: this is not YAML: found unexpected end of stream
+    background: "#fff
+                ^
+    hint: a quote is not closed
+)");
+}
+
+TEST(ReaderMessages, OneBracketTooMany) {
+  EXPECT_EQ(report(head + "image: {size: [1, 2]}}\n"),
+            R"(scene.yaml:3:22: error: this is not YAML: did not find expected key
+    image: {size: [1, 2]}}
+                         ^
     hint: there is one closing bracket too many, or of the wrong kind
 )");
+}
+
+TEST(ReaderMessages, AliasOfNothing) {
+  EXPECT_EQ(report(head + "background: *sky\n"),
+            R"(scene.yaml:3:13: error: this is not YAML: no value before this one is named &sky
+    background: *sky
+                ^
+    hint: an alias *sky repeats a value that was written as &sky ...
+)");
+}
+
+TEST(ReaderMessages, EmptyElementAtItsDash) {
+  EXPECT_EQ(report(head + "objects:\n  -\n").substr(0, 15), "scene.yaml:4:3:");
+  EXPECT_EQ(report(head + "objects:\n  - # none\n").substr(0, 15), "scene.yaml:4:3:");
 }
 
 TEST(ReaderMessages, UnknownMaterial) {
@@ -294,6 +332,17 @@ TEST(ReaderMessages, Structure) {
             std::string::npos);
   EXPECT_EQ(only(head + "image: &a {samples: *a}\n"),
             "this is not YAML: this alias stands inside the value that it names | ");
+}
+
+TEST(ReaderMessages, BytesThatAreNotUtf8) {
+  // Columns are characters (the umlaut takes two bytes), carets stand under bytes.
+  EXPECT_EQ(only(head + "background: \"\xc3\xa4\xff\"\n"),
+            "this is not YAML: invalid leading UTF-8 octet | scene files are UTF-8 text");
+  EXPECT_EQ(report(head + "background: \"\xc3\xa4\xff\"\n").substr(0, 15), "scene.yaml:3:15");
+}
+
+TEST(ReaderMessages, NestedTooDeeply) {
+  EXPECT_EQ(only(head + "image: " + std::string(3000, '[')), "the YAML is nested too deeply | ");
 }
 
 TEST(ReaderMessages, Shapes) {

@@ -105,7 +105,7 @@ TEST(SettingsMessages, NameTheSettingAndShowTheValue) {
     hint: it must be a whole number
 )");
   EXPECT_EQ(complaint("image.size", "[1"),
-            R"(--set image.size=[1: error: this is not YAML: end of sequence flow not found
+            R"(--set image.size=[1: error: this is not YAML: did not find expected ',' or ']'
     [1
     ^
     hint: a list that opens with [ must close with ], with commas between its elements
