@@ -123,6 +123,7 @@ SceneSummary::Image texture_summary(const Texture& texture) {
     image.width = texture.levels[0].width, image.height = texture.levels[0].height;
     image.channels = texture.channels;
   }
+  if (texture.source.file.empty() && !texture.source.bytes) return image;  // the studio is in no file
   try {
     const std::string in_file = texture.source.file.empty() ? "" : read_bytes(texture.source.file);
     const std::string_view bytes =

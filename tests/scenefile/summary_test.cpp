@@ -49,6 +49,14 @@ TEST(Summary, TellsOfTexturesWhereverTheyAre) {
   EXPECT_EQ(summary.cameras, (std::vector<std::string>{"front", ""}));
 }
 
+TEST(Summary, TheStudioIsInNoFile) {
+  const SceneSummary summary = summarize(
+      parse_scene("lambent: 1\ncamera: {eye: [0, 0, 9], target: [0, 0, 0]}\nbackground: {file: studio}\n"));
+  ASSERT_EQ(summary.textures.size(), 1u);
+  EXPECT_EQ(summary.textures[0].width, 256);
+  EXPECT_EQ(summary.textures[0].problem, "");
+}
+
 TEST(Summary, CountsWhatIsShownByObjects) {
   const ScenePtr scene = parse_scene(
       "lambent: 1\ncamera: {eye: [0, 0, 9], target: [0, 0, 0]}\nobjects:\n  - {sphere: {center: [0, 0, 0], "
