@@ -172,19 +172,19 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
     int child;  // -1: the node itself
   } stack[max_stack];
   int size = 0;
-  Entry at{0.f, bvh.root, -1};
+  std::uint32_t at_node = bvh.root;
+  int at_child = -1;
   for (;;) {
-    const BvhNode& node = world.nodes[at.node];
-    if (at.child >= 0) {
-      leaf(BvhChild{node.first[at.child], node.count[at.child], node.kind[at.child]}, node, at.child);
+    const BvhNode& node = world.nodes[at_node];
+    if (at_child >= 0) {
+      leaf(BvhChild{node.first[at_child], node.count[at_child], node.kind[at_child]}, node, at_child);
     } else {
       NodeLanes near;
       std::uint32_t met = beam.meets(node, t_far, near);
-      const auto enter = [&](int i, float distance) {
-        return node.count[i] > 0 ? Entry{distance, at.node, i} : Entry{distance, node.first[i], -1};
-      };
       if (met && (met & (met - 1)) == 0) {  // One alone, as most often: there is nothing to sort.
-        at = enter(__builtin_ctz(met), 0.f);
+        const int i = __builtin_ctz(met);
+        if (node.count[i] > 0) at_child = i;
+        else at_node = node.first[i];
         continue;
       }
       float distance[bvh_width];
@@ -192,15 +192,18 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
       const int bottom = size;
       for (; met; met &= met - 1) {
         const int i = __builtin_ctz(met);
-        int to = size++;
-        for (; to > bottom && stack[to - 1].near < distance[i]; --to) stack[to] = stack[to - 1];
-        stack[to] = enter(i, distance[i]);
+        int at = size++;
+        for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
+        stack[at] =
+            node.count[i] > 0 ? Entry{distance[i], at_node, i} : Entry{distance[i], node.first[i], -1};
       }
     }
     do {
       if (size == 0) return;
-      at = stack[--size];
-    } while (!(at.near <= t_far));
+      --size;
+    } while (!(stack[size].near <= t_far));
+    at_node = stack[size].node;
+    at_child = stack[size].child;
   }
 }
 

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "scenefile/nearest.h"
 
@@ -222,7 +221,8 @@ class TreeBuilder {
     put(node, spots_.at(event.start_mark));
     if (tag && std::strcmp(text_of(tag), "!") != 0) {  // that one means "no tag: text"
       const std::string_view standard = "tag:yaml.org,2002:", whole = text_of(tag);
-      node.tag = whole.starts_with(standard) ? "!!" + std::string(whole.substr(standard.size())) : whole;
+      node.tag = whole;
+      if (whole.starts_with(standard)) node.tag.replace(0, standard.size(), "!!");
     }
     if (anchor) anchored_[text_of(anchor)] = &node;
     attach(&node);
