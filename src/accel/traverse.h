@@ -113,8 +113,8 @@ struct PacketBeam {
   /// False where the rays do not all go the same way; then this is no beam. In line, as a packet that enters
   /// an instance asks little more of it.
   template <class F>
-  __attribute__((always_inline)) bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far,
-                                          int count) {
+  [[gnu::always_inline]] bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far,
+                                  int count) {
     const F zero(0.f);
     for (int a = 0; a < 3; ++a) {
       const auto of = [a](const auto& v) { return a == 0 ? v.x : a == 1 ? v.y : v.z; };
@@ -261,8 +261,8 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
   } else {
     BoxRay<F> box_rays[max_packets];
     for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
-    if (count ==
-        1) {  // Of the packets that enter an instance many pass by it, and a box costs less than a beam.
+    // Of the packets that enter an instance many pass by it, and a box costs less than a beam.
+    if (count == 1) {
       const auto side = [&](int row) {
         const Vec3<float>& corner = row < 3 ? bvh.lower : bvh.upper;
         return F(row % 3 == 0 ? corner.x : row % 3 == 1 ? corner.y : corner.z);
