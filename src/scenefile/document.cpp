@@ -37,13 +37,7 @@ std::string with_newlines(std::string_view text) {
 /// Whether a byte goes on with the character before it.
 bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
-/// A place in a text, as a Node's.
-struct Spot {
-  int line = 1, column = 1, character = 1;
-};
-void put(Node& node, const Spot& spot) {
-  node.line = spot.line, node.column = spot.column, node.character = spot.character;
-}
+void put(Node& node, const Spot& spot) { static_cast<Spot&>(node) = spot; }
 
 /// What keeps a text from being YAML.
 struct NotYaml {
@@ -190,9 +184,8 @@ class TreeBuilder {
         std::find(std::begin(nothing), std::end(nothing), value) != std::end(nothing)) {
       Node* node = add(event, Node::Kind::nothing, scalar.anchor, nullptr);
       // An empty element stands behind its dash; people look for the dash.
-      const bool behind_dash = value.empty() && node->column > 1 &&
-                               spots_.byte({node->line, node->column - 1, node->character - 1}) == '-';
-      if (behind_dash) --node->column, --node->character;
+      const Spot before{node->line, node->column - 1, node->character - 1};
+      if (value.empty() && before.column > 0 && spots_.byte(before) == '-') put(*node, before);
       return;
     }
     Node* node = add(event, Node::Kind::text, scalar.anchor, scalar.tag);
@@ -234,8 +227,7 @@ class TreeBuilder {
   }
   void open(Node* node) {
     constexpr std::size_t deepest = 500;  // the readers of values go as deep as these
-    if (open_.size() >= deepest)
-      throw NotYaml{{node->line, node->column, node->character}, "the YAML is nested too deeply", {}};
+    if (open_.size() >= deepest) throw NotYaml{*node, "the YAML is nested too deeply", {}};
     open_.push_back(node);
   }
 

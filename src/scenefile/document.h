@@ -14,14 +14,20 @@
 
 namespace lambent {
 
-struct Node {
+/// A place in a text. Lines and columns from 1; 0 where it is in none.
+struct Spot {
+  int line = 0;
+  int column = 0;     ///< In bytes, as carets count.
+  int character = 0;  ///< The column in characters, as editors count.
+};
+
+/// A value, and the spot where it begins.
+struct Node : Spot {
   enum class Kind { nothing, text, list, mapping };
   Kind kind = Kind::nothing;
   bool quoted = false;          ///< Text in quotes: never a number.
   bool shared = false;          ///< Shown in several places by aliases.
   int source = 0;               ///< Index into Document::sources.
-  int line = 0, column = 0;     ///< From 1; 0 where it stands in no text. Columns count bytes, as carets do,
-  int character = 0;            ///< and characters, as editors do.
   std::string text;             ///< Of Kind::text.
   std::string tag;              ///< "!!float" and the like, or empty.
   std::vector<Node*> children;  ///< A list's elements; a mapping's keys and values, in turn.

@@ -471,7 +471,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
   const Format& f = format();
   Node start;  // of an empty document
   start.kind = Node::Kind::mapping;
-  start.line = start.column = start.character = 1;
+  static_cast<Spot&>(start) = {1, 1, 1};
   const Value whole{
       document.root != nullptr && document.root->kind != Node::Kind::nothing ? document.root : &start,
       nullptr, "the scene"};
