@@ -6,6 +6,7 @@
 #include "explain/write.h"
 #include "film/film.h"
 #include "lambent/explain.h"
+#include "threads.h"
 #include "tiles.h"
 
 namespace lambent {

@@ -14,6 +14,7 @@
 #include "lambent/lambent.h"
 #include "scene/scene.h"
 #include "scenefile/settings_text.h"
+#include "threads.h"
 #include "tiles.h"
 
 namespace lambent {

@@ -350,7 +350,8 @@ ExitCode run(const CompareCommand& command) {
   std::vector<std::string> names;
   for (const Entry& model : models) names.push_back(model.name);
   metadata.emplace_back("lambent:models", fmt::format("{}", fmt::join(names, ", ")));
-  for (const std::string& output : outputs) write_image(output, sheet.image, metadata, {8, encoded});
+  for (const std::string& output : outputs)
+    write_image(output, sheet.image, metadata, {8, encoded, command.threads});
 
   if (command.difference)
     print(table_of(command, pictures, differences) +

@@ -113,7 +113,8 @@ ExitCode run_ladder(const CompareCommand& command) {
   options.columns = command.columns;
   options.encoded = encoded;
   const Sheet sheet = make_sheet(cells, options);
-  for (const std::string& output : outputs) write_image(output, sheet.image, metadata, {8, encoded});
+  for (const std::string& output : outputs)
+    write_image(output, sheet.image, metadata, {8, encoded, command.threads});
   if (!command.quiet) {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     print_error(fmt::format("{}: {} x {}, {} of {} x {}, {}\n", fmt::join(outputs, ", "), sheet.image.width,

@@ -187,7 +187,7 @@ ExitCode run(const RenderCommand& command) {
     const Stopwatch writing;
     for (const std::string& output : outputs[std::size_t(frame)])
       write_image(output, denoiser && ending(output) == ".png" ? denoised : result.image, result.metadata,
-                  {command.bits, result.write.png_encoded});
+                  {command.bits, result.write.png_encoded, command.threads});
     add(stats, result.stats, frame);
     stats.seconds.write += writing.seconds();
     size = fmt::format("{} x {}", result.image.width, result.image.height);

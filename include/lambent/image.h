@@ -30,6 +30,8 @@ struct WriteOptions {
   int png_bits = 8;  ///< 8 or 16.
   bool png_encoded =
       true;  ///< Whether a PNG holds sRGB-encoded values; if not, the linear values as they are.
+  int threads =
+      0;  ///< That compress an EXR; 0: as many as there are processors. The file does not depend on it.
 };
 
 /// Write `image` to `path`; its ending (.png or .exr) names the format. PNG is sRGB-encoded (unless the

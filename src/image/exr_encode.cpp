@@ -4,11 +4,14 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 
 #include "image/formats.h"
+#include "threads.h"
 
 namespace lambent {
 namespace {
@@ -57,9 +60,21 @@ bool is_reserved(const std::string& name) {
   return std::find(std::begin(reserved), std::end(reserved), name) != std::end(reserved);
 }
 
+/// How many of `threads` a file keeps busy, 0: the caller alone. OpenEXR's workers are the whole process's:
+/// there may be more of them for somebody else, and they are never made fewer.
+int workers(const Image& image, int threads) {
+  constexpr std::size_t worth_sharing = std::size_t(1) << 16;  // values: a millisecond and more
+  const int count = image.data.size() < worth_sharing ? 1 : thread_count(threads);
+  if (count == 1) return 0;
+  static std::mutex changing;
+  const std::lock_guard lock(changing);
+  if (Imf::globalThreadCount() < count) Imf::setGlobalThreadCount(count);
+  return count;
+}
+
 }  // namespace
 
-std::string encode_exr(const Image& image, const Metadata& metadata, const std::string& path) {
+std::string encode_exr(const Image& image, const Metadata& metadata, const std::string& path, int threads) {
   for (const std::string& name : image.channels)
     if (!is_exr_name(name))
       throw picture_error(path, "a channel's name has 1 to 255 bytes in EXR, not '" + name + "'");
@@ -84,7 +99,7 @@ std::string encode_exr(const Image& image, const Metadata& metadata, const std::
     }
     Output output(path);
     {
-      Imf::OutputFile file(output, header, 0);
+      Imf::OutputFile file(output, header, workers(image, threads));
       file.setFrameBuffer(pixels);
       file.writePixels(image.height);
     }  // the end of the file is written here

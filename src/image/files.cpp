@@ -76,7 +76,7 @@ void write_image(const std::string& path, const Image& image, const Metadata& me
                         "the endings known are .png and .exr");
   check_picture(image, path);
   write_bytes(path, ending == ".png" ? encode_png(image, metadata, options, path)
-                                     : encode_exr(image, metadata, path));
+                                     : encode_exr(image, metadata, path, options.threads));
 }
 
 namespace {

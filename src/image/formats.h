@@ -23,9 +23,10 @@ std::string encode_png(const Image& image, const Metadata& metadata, const Write
                        const std::string& path);
 
 /// Every channel as 32-bit float, ZIP-compressed scan lines; nothing in the file changes from run to run. Of
-/// metadata with equal keys the last stays. Throws InputError where a channel's name or a key cannot be
-/// EXR's.
-std::string encode_exr(const Image& image, const Metadata& metadata, const std::string& path);
+/// metadata with equal keys the last stays. `threads` as in WriteOptions. Throws InputError where a channel's
+/// name or a key cannot be EXR's.
+std::string encode_exr(const Image& image, const Metadata& metadata, const std::string& path,
+                       int threads = 0);
 
 /// Every kind of PNG, as R, G, B and A where the file has transparency. The values are taken as sRGB,
 /// whatever gAMA or iCCP say.

@@ -75,6 +75,13 @@ TEST(Exr, TheSamePictureIsTheSameBytes) {
     EXPECT_EQ(bytes.find(changing), std::string::npos) << changing;
 }
 
+TEST(Exr, AnyNumberOfThreadsWritesTheSameBytes) {
+  Image image{97, 331, {"B", "G", "R", "Z"}, {}};
+  for (int i = 0; i < 97 * 331 * 4; ++i) image.data.push_back(std::sin(0.01f * float(i)));
+  const std::string bytes = encode_exr(image, {}, "a.exr", 1);
+  for (const int threads : {2, 3, 8, 0}) EXPECT_EQ(encode_exr(image, {}, "a.exr", threads), bytes) << threads;
+}
+
 TEST(Exr, RefusesNamesThatTheFormatCannotHold) {
   const Image image{1, 1, {"R"}, {1}};
   EXPECT_EQ(error_of(image, {{"", "x"}}), "a.exr: error: a metadata key has 1 to 255 bytes in EXR, not ''");
