@@ -45,17 +45,18 @@ struct NotYaml {
   std::string message, hint;
 };
 
-/// Makes spots of libyaml's marks, which count lines and characters from 0.
+/// Makes spots of lines and characters, counted from 0 as libyaml's marks count them.
 class Spots {
  public:
   explicit Spots(const std::vector<std::string>& lines) : lines_(lines) {}
 
-  Spot at(const yaml_mark_t& mark) {
-    if (mark.line >= lines_.size()) return in_line(lines_.size() - 1, lines_.back().size());
-    const std::string& text = lines_[mark.line];
-    if (mark.line != line_ || mark.column < characters_) line_ = mark.line, characters_ = byte_ = 0;
+  Spot at(const yaml_mark_t& mark) { return at(mark.line, mark.column); }
+  Spot at(std::size_t line, std::size_t characters) {
+    if (line >= lines_.size()) return in_line(lines_.size() - 1, lines_.back().size());
+    const std::string& text = lines_[line];
+    if (line != line_ || characters < characters_) line_ = line, characters_ = byte_ = 0;
     // From the last one on: a line may hold a whole scene.
-    for (; characters_ < mark.column && byte_ < text.size(); ++characters_)
+    for (; characters_ < characters && byte_ < text.size(); ++characters_)
       for (++byte_; byte_ < text.size() && is_tail(text[byte_]);) ++byte_;
     return {int(line_) + 1, int(byte_) + 1, int(characters_) + 1};
   }
@@ -402,16 +403,8 @@ class Setter {
   std::vector<std::string> steps_;
 };
 
-}  // namespace
-
-const Node* value_of(const Node& mapping, std::string_view key) {
-  if (mapping.kind != Node::Kind::mapping) return nullptr;
-  for (std::size_t k = 0; k + 1 < mapping.children.size(); k += 2)
-    if (mapping.children[k]->kind == Node::Kind::text && mapping.children[k]->text == key)
-      return mapping.children[k + 1];
-  return nullptr;
-}
-
+/// Lets a diagnostic show a line with a caret under that column, from 1 in bytes. Of a very long line only
+/// what is near is kept: there may be a thousand errors in it.
 void show_line(Diagnostic& diagnostic, std::string_view line, int column) {
   constexpr std::size_t reach = 600;  // bytes: more than is shown
   const std::size_t at = std::min(std::size_t(std::max(0, column - 1)), line.size());
@@ -420,6 +413,16 @@ void show_line(Diagnostic& diagnostic, std::string_view line, int column) {
   while (end < line.size() && is_tail(line[end])) ++end;
   diagnostic.excerpt = line.substr(begin, end - begin);
   diagnostic.caret_column = column > 0 ? column - int(begin) : 0;
+}
+
+}  // namespace
+
+const Node* value_of(const Node& mapping, std::string_view key) {
+  if (mapping.kind != Node::Kind::mapping) return nullptr;
+  for (std::size_t k = 0; k + 1 < mapping.children.size(); k += 2)
+    if (mapping.children[k]->kind == Node::Kind::text && mapping.children[k]->text == key)
+      return mapping.children[k + 1];
+  return nullptr;
 }
 
 Place place_of(const Document& document, const Node& node) {
@@ -436,6 +439,18 @@ Diagnostic diagnostic_at(const Document& document, const Node& node, std::string
   if (node.line >= 1 && node.line <= int(source.lines.size()))
     show_line(diagnostic, source.lines[std::size_t(node.line) - 1], node.column);
   return diagnostic;
+}
+
+void show_lines(const Document& document, std::vector<Diagnostic>& remarks) {
+  const Source& file = document.sources[0];
+  Spots spots(file.lines);
+  for (Diagnostic& remark : remarks) {
+    const Place& place = remark.place;
+    if (place.file != file.name || place.line < 1 || place.line > int(file.lines.size())) continue;
+    const int column =
+        place.column < 1 ? 0 : spots.at(std::size_t(place.line) - 1, std::size_t(place.column) - 1).column;
+    show_line(remark, file.lines[std::size_t(place.line) - 1], column);
+  }
 }
 
 Document parse_yaml(std::string_view text, const std::string& name) {

@@ -59,16 +59,15 @@ Document parse_yaml(std::string_view text, const std::string& name);
 /// path leads nowhere.
 void apply_setting(Document& document, const std::string& path, const std::string& value);
 
-/// Lets a diagnostic show a line of its file with a caret under that column, from 1 in bytes. Of a very long
-/// line only what is near is kept: there may be a thousand errors in it.
-void show_line(Diagnostic& diagnostic, std::string_view line, int column);
-
 /// Where `node` stands, for people.
 Place place_of(const Document& document, const Node& node);
 
 /// A remark about `node`, with the line it stands in.
 Diagnostic diagnostic_at(const Document& document, const Node& node, std::string message,
                          std::string hint = {});
+
+/// Lets the remarks that have places in the document's file show the lines there.
+void show_lines(const Document& document, std::vector<Diagnostic>& remarks);
 
 /// The value of a mapping's key, or null.
 const Node* value_of(const Node& mapping, std::string_view key);

@@ -513,13 +513,7 @@ Scene read_scene(const Document& document, const std::string& folder, LoadedMode
   load_textures(scene, import.limits);
   std::vector<Diagnostic> faults = validate(scene);
   if (!faults.empty()) {
-    for (Diagnostic& fault : faults) {
-      const Source& source = document.sources[0];
-      if (fault.place.file != source.name || fault.place.line < 1 ||
-          fault.place.line > int(source.lines.size()))
-        continue;
-      show_line(fault, source.lines[std::size_t(fault.place.line) - 1], fault.place.column);
-    }
+    show_lines(document, faults);
     throw InputError(std::move(faults));
   }
   return scene;

@@ -238,6 +238,17 @@ TEST(SceneFile, ErrorsInALongLineKeepWhatIsNear) {
   }
 }
 
+TEST(SceneFile, FaultsOfValuesStandUnderTheirCharacter) {
+  // Columns are characters, carets stand under bytes; each umlaut has two of these.
+  const std::string one = "{name: \"\xc3\xa4\xc3\xa4\", sphere: {center: [1e10, 0, 0], radius: 1e9}}";
+  const auto errors = errors_of(head + "objects: [" + one + ", " + one + "]\n");
+  ASSERT_EQ(errors.size(), 2u);
+  EXPECT_EQ(errors[0].message, "'\xc3\xa4\xc3\xa4' reaches beyond 1e10 scene units from the origin");
+  EXPECT_EQ(errors[1].place.column - errors[0].place.column, int(one.size()) - 2 + 2);
+  for (const Diagnostic& error : errors)
+    EXPECT_EQ(error.excerpt.substr(std::size_t(error.caret_column) - 1, 7), "{name: ");
+}
+
 TEST(SceneFile, NotEveryOneOfManyMisspelledNamesIsLookedUp) {
   std::string text = head + "materials:\n";
   for (int i = 0; i < 600; ++i) text += "- {name: material" + std::to_string(i) + "}\n";
