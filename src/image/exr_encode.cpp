@@ -86,6 +86,9 @@ std::string encode_exr(const Image& image, const Metadata& metadata, const std::
   try {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
+    // Measured on pictures with 44 and 102 channels: two thirds of the time of level 4, OpenEXR's own, and 2
+    // to 3 % larger.
+    header.zipCompressionLevel() = 3;
     for (const auto& [key, value] : metadata) header.insert(key, Imf::StringAttribute(value));
 
     Imf::FrameBuffer pixels;
