@@ -192,6 +192,12 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
       const int bottom = size;
       for (; met; met &= met - 1) {
         const int i = __builtin_ctz(met);
+        if (node.count[i] > 0) {  // It is asked soon: its memory is sent for.
+          __builtin_prefetch(world.refs + node.first[i]);
+        } else {
+          __builtin_prefetch(world.nodes + node.first[i]);
+          __builtin_prefetch(&world.nodes[node.first[i]].first);
+        }
         int at = size++;
         for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
         stack[at] =
