@@ -6,7 +6,6 @@
 #include "explain/write.h"
 #include "film/film.h"
 #include "lambent/explain.h"
-#include "threads.h"
 #include "tiles.h"
 
 namespace lambent {

@@ -14,7 +14,6 @@
 #include "lambent/lambent.h"
 #include "scene/scene.h"
 #include "scenefile/settings_text.h"
-#include "threads.h"
 #include "tiles.h"
 
 namespace lambent {

@@ -130,6 +130,10 @@ double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, int(std::thread::hardware_concurrency()));
+}
+
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
   const Tiles tiles{film, options.tile_size};

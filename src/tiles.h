@@ -26,6 +26,9 @@ struct TileOptions {
   std::function<double()> seconds = steady_seconds;  ///< The clock for it.
 };
 
+/// As many threads as are wanted; 0: as many as there are processors.
+int thread_count(int wanted);
+
 /// Renders every tile of the film: all samples of the frame. A tile depends on the frame alone.
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options);
 

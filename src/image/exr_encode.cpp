@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <thread>
 
 #include "image/formats.h"
-#include "threads.h"
 
 namespace lambent {
 namespace {
@@ -64,8 +64,8 @@ bool is_reserved(const std::string& name) {
 /// there may be more of them for somebody else, and they are never made fewer.
 int workers(const Image& image, int threads) {
   constexpr std::size_t worth_sharing = std::size_t(1) << 16;  // values: a millisecond and more
-  const int count = image.data.size() < worth_sharing ? 1 : thread_count(threads);
-  if (count == 1) return 0;
+  const int count = threads > 0 ? threads : int(std::thread::hardware_concurrency());
+  if (count <= 1 || image.data.size() < worth_sharing) return 0;
   static std::mutex changing;
   const std::lock_guard lock(changing);
   if (Imf::globalThreadCount() < count) Imf::setGlobalThreadCount(count);
