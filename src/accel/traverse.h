@@ -196,7 +196,7 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
           __builtin_prefetch(world.refs + node.first[i]);
         } else {
           __builtin_prefetch(world.nodes + node.first[i]);
-          __builtin_prefetch(&world.nodes[node.first[i]].first);
+          __builtin_prefetch(&world.nodes[node.first[i]].first);  // its second half
         }
         int at = size++;
         for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
