@@ -181,27 +181,33 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
     } else {
       NodeLanes near;
       std::uint32_t met = beam.meets(node, t_far, near);
-      if (met && (met & (met - 1)) == 0) {  // One alone, as most often: there is nothing to sort.
-        const int i = __builtin_ctz(met);
-        if (node.count[i] > 0) at_child = i;
-        else at_node = node.first[i];
-        continue;
-      }
-      float distance[bvh_width];
-      near.store(distance);
-      const int bottom = size;
-      for (; met; met &= met - 1) {
-        const int i = __builtin_ctz(met);
-        if (node.count[i] > 0) {  // It is asked soon: its memory is sent for.
-          __builtin_prefetch(world.refs + node.first[i]);
-        } else {
-          __builtin_prefetch(world.nodes + node.first[i]);
-          __builtin_prefetch(&world.nodes[node.first[i]].first);  // its second half
+      if (met) {  // On to the nearest; what else is met is put off.
+        int nearest = __builtin_ctz(met);
+        if (met &= met - 1) {
+          float distance[bvh_width];
+          near.store(distance);
+          for (const int bottom = size; met; met &= met - 1) {
+            const int i = __builtin_ctz(met);
+            // A jump, and no arithmetic in its place: where it is guessed right the next node comes early.
+            const bool is_nearer = distance[i] < distance[nearest];
+            const int later = is_nearer ? nearest : i;
+            nearest = is_nearer ? i : nearest;
+            int at = size++;
+            for (; at > bottom && stack[at - 1].near < distance[later]; --at) stack[at] = stack[at - 1];
+            const std::uint32_t first = node.first[later];
+            if (node.count[later] > 0) {  // It is asked soon: its memory is sent for.
+              __builtin_prefetch(world.refs + first);
+              stack[at] = {distance[later], at_node, later};
+            } else {
+              __builtin_prefetch(world.nodes + first);
+              __builtin_prefetch(&world.nodes[first].first);  // its second half
+              stack[at] = {distance[later], first, -1};
+            }
+          }
         }
-        int at = size++;
-        for (; at > bottom && stack[at - 1].near < distance[i]; --at) stack[at] = stack[at - 1];
-        stack[at] =
-            node.count[i] > 0 ? Entry{distance[i], at_node, i} : Entry{distance[i], node.first[i], -1};
+        if (node.count[nearest] > 0) at_child = nearest;
+        else at_node = node.first[nearest];
+        continue;
       }
     }
     do {
@@ -355,40 +361,56 @@ void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instanc
   }
 }
 
-/// The same for one ray: four primitives at a time, a lane for each.
+/// The same for one ray: four primitives at a time, a lane for each. meet(of_lane) is where the ray meets
+/// those that stand at of_lane(0) to of_lane(3) in the leaf; in lanes that are left over stands the last.
+template <class Meet, class See>
+void ask_in_fours(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const Meet& meet,
+                  const See& see) {
+  for (std::uint32_t first = 0; first < leaf.count; first += 4) {
+    const std::uint32_t last = min(leaf.count - first, 4u) - 1;
+    const auto m = meet([&](int k) { return first + min(std::uint32_t(k), last); });
+    for (std::uint32_t met = lane_bits(m.hit) & ((2u << last) - 1); met; met &= met - 1) {
+      const int k = __builtin_ctz(met);
+      see(instance, world.refs[leaf.first + first + std::uint32_t(k)], Meeting<float>{lane(m.t, k), true});
+    }
+  }
+}
+/// Flat, as most of the time of scattered rays goes by here.
+template <class See>
+[[gnu::flatten, gnu::noinline]] void ask_triangles(const WorldView& world, const BvhChild& leaf,
+                                                   std::int32_t instance,
+                                                   const QueryRay<Pack<float, 4>>& rays, const See& see) {
+  const PrimitiveRef* refs = world.refs + leaf.first;
+  const Geometry& g = world.geometries[refs[0].geometry];
+  const auto meet = [&, vertices = g.vertices](const auto& of_lane) {
+    const std::uint32_t* v[4];
+    for (int k = 0; k < 4; ++k) v[k] = corners(g, refs[of_lane(k)].primitive);
+    const auto corner = [&](int c) {
+      return gather_points<Pack<float, 4>>([&](int k) -> const Vec3<float>& { return vertices[v[k][c]]; });
+    };
+    return meet_triangle(rays, corner(0), corner(1), corner(2));
+  };
+  ask_in_fours(world, leaf, instance, meet, see);
+}
+template <class See>
+void ask_spheres(const WorldView& world, const BvhChild& leaf, std::int32_t instance,
+                 const QueryRay<Pack<float, 4>>& rays, const See& see) {
+  using Four = Pack<float, 4>;
+  const auto meet = [&](const auto& of_lane) {
+    const auto sphere = [&](int k) -> const LeafSphere& {
+      return world.leaf_spheres[leaf.first + of_lane(k)];
+    };
+    return meet_sphere(rays, gather_points<Four>(sphere),
+                       gather<Four>([&](int k) { return sphere(k).radius; }));
+  };
+  ask_in_fours(world, leaf, instance, meet, see);
+}
 template <class See>
 void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<float>& ray,
               const QueryRay<Pack<float, 4>>& four_rays, const See& see) {
-  using Four = Pack<float, 4>;
-  const PrimitiveRef* refs = world.refs + leaf.first;
-  if (leaf.kind == LeafKind::mixed || leaf.count == 1) return ask_leaf(world, leaf, instance, ray, see);
-  for (std::uint32_t first = 0; first < leaf.count; first += 4) {
-    const auto of_lane = [&](int k) { return min(first + std::uint32_t(k), leaf.count - 1); };
-    Meeting<Four> m;
-    if (leaf.kind == LeafKind::triangles) {
-      const Geometry& g = world.geometries[refs[0].geometry];
-      Vec3<float> p[3][4];
-      for (int k = 0; k < 4; ++k) {
-        const std::uint32_t* v = corners(g, refs[of_lane(k)].primitive);
-        for (int c = 0; c < 3; ++c) p[c][k] = g.vertices[v[c]];
-      }
-      const auto corner = [&](int c) {
-        return gather_points<Four>([&](int k) -> const Vec3<float>& { return p[c][k]; });
-      };
-      m = meet_triangle(four_rays, corner(0), corner(1), corner(2));
-    } else {
-      const auto sphere = [&](int k) -> const LeafSphere& {
-        return world.leaf_spheres[leaf.first + of_lane(k)];
-      };
-      m = meet_sphere(four_rays, gather_points<Four>(sphere),
-                      gather<Four>([&](int k) { return sphere(k).radius; }));
-    }
-    const std::uint32_t real = (1u << min(leaf.count - first, 4u)) - 1;
-    for (std::uint32_t met = lane_bits(m.hit) & real; met; met &= met - 1) {
-      const int k = __builtin_ctz(met);
-      see(instance, refs[first + k], Meeting<float>{lane(m.t, k), true});
-    }
-  }
+  if (leaf.kind == LeafKind::mixed || leaf.count == 1) ask_leaf(world, leaf, instance, ray, see);
+  else if (leaf.kind == LeafKind::triangles) ask_triangles(world, leaf, instance, four_rays, see);
+  else ask_spheres(world, leaf, instance, four_rays, see);
 }
 
 /// Calls see(i, instance, ref, meeting) for every primitive that some ray of packet i meets and that may lie

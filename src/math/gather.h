@@ -2,6 +2,8 @@
 // Points and transforms that lie apart in memory, brought into the lanes of a packet; vectors in other
 // numbers.
 
+#include <type_traits>
+
 #include "math/pack.h"
 #include "math/transform.h"
 
@@ -13,10 +15,42 @@ template <class To, class F> Vec3<With<F, To>> number_cast(const Vec3<F>& v) {
   return {number_cast<To>(v.x), number_cast<To>(v.y), number_cast<To>(v.z)};
 }
 
+/// Four points that stand in memory. x and y are loaded as one: a register takes those of two points.
+inline Vec3<Pack<float, 4>> load_points(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c,
+                                        const Vec3<float>& d) {
+  using Raw = typename Pack<float, 4>::Raw;
+  typedef double Both __attribute__((may_alias, aligned(4)));
+  typedef double Pairs __attribute__((vector_size(16)));
+  const auto xy = [](const Vec3<float>& p) { return *reinterpret_cast<const Both*>(&p.x); };
+  const Raw ab = Raw(Pairs{xy(a), xy(b)}), cd = Raw(Pairs{xy(c), xy(d)});
+  Vec3<Pack<float, 4>> points;
+  points.x.p0 = __builtin_shufflevector(ab, cd, 0, 2, 4, 6);
+  points.y.p0 = __builtin_shufflevector(ab, cd, 1, 3, 5, 7);
+  points.z.p0 = Raw{a.z, b.z, c.z, d.z};
+  return points;
+}
+template <int W, int First = 0, class Value> Vec3<Pack<float, W>> load_points(const Value& value) {
+  if constexpr (W == 4) {
+    return load_points(value(First), value(First + 1), value(First + 2), value(First + 3));
+  } else {
+    const auto a = load_points<W / 2, First>(value), b = load_points<W / 2, First + W / 2>(value);
+    const auto both = [](const auto& lower, const auto& upper) {
+      Pack<float, W> all;
+      if constexpr (Pack<float, W>::In::parts == 2) all.p0 = lower.p0, all.p1 = upper.p0;
+      else all.p0 = joined(lower.p0, upper.p0, std::make_index_sequence<W>());
+      return all;
+    };
+    return {both(a.x, b.x), both(a.y, b.y), both(a.z, b.z)};
+  }
+}
+
 /// value(k) is the point of lane k: anything with x, y and z.
 template <class F, class Value> Vec3<F> gather_points(const Value& value) {
-  return {gather<F>([&](int k) { return value(k).x; }), gather<F>([&](int k) { return value(k).y; }),
-          gather<F>([&](int k) { return value(k).z; })};
+  if constexpr (lanes_of<F> >= 4 && std::is_same_v<decltype(value(0)), const Vec3<float>&>)
+    return load_points<lanes_of<F>>(value);
+  else
+    return {gather<F>([&](int k) { return value(k).x; }), gather<F>([&](int k) { return value(k).y; }),
+            gather<F>([&](int k) { return value(k).z; })};
 }
 /// Points that stand in memory as floats, in lanes of double.
 template <class F, class Value> Vec3<F> gather_float_points(const Value& value) {
