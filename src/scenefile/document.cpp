@@ -1,5 +1,6 @@
 #include "scenefile/document.h"
 
+#include <fmt/format.h>
 #include <yaml.h>
 
 #include <algorithm>
@@ -7,6 +8,8 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "scenefile/nearest.h"
 
@@ -37,6 +40,44 @@ std::string with_newlines(std::string_view text) {
 /// Whether a byte goes on with the character before it.
 bool is_tail(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
 
+/// JSON escapes a character beyond U+FFFF in two halves, YAML as one: the text with `\U0001f600` in place of
+/// `\ud83d\ude00`, which is shorter.
+struct JoinedEscapes {
+  static constexpr std::size_t shorter = 2;  ///< In characters.
+  std::string text;
+  std::vector<std::pair<std::size_t, std::size_t>> spots;  ///< Line and column of each, from 0, in `text`.
+
+  /// Of JSON: elsewhere a backslash need not begin an escape.
+  explicit JoinedEscapes(std::string_view json) {
+    std::size_t line = 0, column = 0;
+    for (std::size_t i = 0; i < json.size();) {
+      const auto upper = half(json.substr(i), 0xd800),
+                 lower = half(json.substr(std::min(i + 6, json.size())), 0xdc00);
+      if (upper && lower) {
+        spots.emplace_back(line, column);
+        text += fmt::format("\\U{:08x}", 0x10000 + (*upper << 10 | *lower));
+        i += 12, column += 10;
+        continue;
+      }
+      // An escape goes by as one, so that what follows `\\` is none.
+      const std::size_t size = json[i] == '\\' && i + 1 < json.size() ? 2 : 1;
+      text += json.substr(i, size);
+      if (json[i] == '\n') ++line, column = 0;
+      else if (!is_tail(json[i])) column += size;
+      i += size;
+    }
+  }
+
+ private:
+  /// The ten bits of the half that the text begins with, if it is one of those from `first` on.
+  static std::optional<unsigned> half(std::string_view text, unsigned first) {
+    unsigned code = 0;
+    if (text.size() < 6 || text.substr(0, 2) != "\\u") return {};
+    if (std::from_chars(text.data() + 2, text.data() + 6, code, 16).ptr != text.data() + 6) return {};
+    return code >> 10 == first >> 10 ? std::optional(code & 0x3ff) : std::nullopt;
+  }
+};
+
 void put(Node& node, const Spot& spot) { static_cast<Spot&>(node) = spot; }
 
 /// What keeps a text from being YAML.
@@ -48,9 +89,21 @@ struct NotYaml {
 /// Makes spots of lines and characters, counted from 0 as libyaml's marks count them.
 class Spots {
  public:
-  explicit Spots(const std::vector<std::string>& lines) : lines_(lines) {}
+  /// `joined`: what the text that is read has shorter than `lines`.
+  explicit Spots(const std::vector<std::string>& lines, const JoinedEscapes* joined = nullptr)
+      : lines_(lines), joined_(joined) {}
 
-  Spot at(const yaml_mark_t& mark) { return at(mark.line, mark.column); }
+  Spot at(const yaml_mark_t& mark) {
+    std::size_t column = mark.column;
+    if (joined_) {
+      const auto before = [&](std::size_t of_column) {
+        return std::lower_bound(joined_->spots.begin(), joined_->spots.end(),
+                                std::pair(mark.line, of_column));
+      };
+      column += JoinedEscapes::shorter * std::size_t(before(mark.column) - before(0));
+    }
+    return at(mark.line, column);
+  }
   Spot at(std::size_t line, std::size_t characters) {
     if (line >= lines_.size()) return in_line(lines_.size() - 1, lines_.back().size());
     const std::string& text = lines_[line];
@@ -88,6 +141,7 @@ class Spots {
   }
 
   const std::vector<std::string>& lines_;
+  const JoinedEscapes* joined_;
   std::size_t line_ = 0, characters_ = 0, byte_ = 0;  ///< The last spot.
 };
 
@@ -110,6 +164,8 @@ constexpr Complaint complaints[] = {
     {"while scanning a simple key", nullptr, "a key is followed by a colon and a space, in the same line"},
     {"while scanning a quoted scalar", "found unexpected end of stream", "a quote is not closed", true},
     {"while scanning a quoted scalar", "found unexpected document indicator", "a quote is not closed", true},
+    {"while parsing a quoted scalar", "found invalid Unicode character escape code",
+     "a character beyond U+FFFF is written as it is, or as one escape such as \\U0001f600"},
     {"while parsing a quoted scalar", nullptr,
      "in double quotes a backslash begins an escape such as \\n; text in single quotes is taken as it is"},
     {nullptr, "mapping values are not allowed in this context",
@@ -123,8 +179,8 @@ constexpr Complaint complaints[] = {
 /// libyaml takes the text apart, event by event; this builds the tree.
 class TreeBuilder {
  public:
-  TreeBuilder(Document& document, int source, std::string_view text)
-      : document_(document), source_(source), spots_(document.sources[std::size_t(source)].lines) {
+  TreeBuilder(Document& document, int source, std::string_view text, const JoinedEscapes* joined = nullptr)
+      : document_(document), source_(source), spots_(document.sources[std::size_t(source)].lines, joined) {
     if (!yaml_parser_initialize(&parser_)) throw std::bad_alloc();
     yaml_parser_set_encoding(&parser_, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&parser_, reinterpret_cast<const unsigned char*>(text.data()), text.size());
@@ -281,8 +337,17 @@ Node* parse_into(Document& document, std::string_view text, int source) {
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
     fail(document, source, Spots(document.sources[std::size_t(source)].lines).behind(zero),
          "this is not a text file: it holds a byte of value 0", "scene files are UTF-8 text");
+  const std::size_t nodes_before = document.nodes.size();
   try {
-    return TreeBuilder(document, source, text).build();
+    try {
+      return TreeBuilder(document, source, text).build();
+    } catch (const NotYaml&) {
+      // All JSON is YAML but for this.
+      if (text.find("\\u") == std::string_view::npos || !nlohmann::json::accept(text)) throw;
+      document.nodes.resize(nodes_before);
+      const JoinedEscapes joined(text);
+      return TreeBuilder(document, source, joined.text, &joined).build();
+    }
   } catch (const NotYaml& error) {
     fail(document, source, error.spot, error.message, error.hint);
   }

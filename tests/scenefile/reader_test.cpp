@@ -444,6 +444,34 @@ TEST(Reader, TakesJsonWithTabsAndEscapes) {
   EXPECT_EQ(scene->lights[0].name, "\xc3\xa9/\"");
 }
 
+// JSON has \ud83d\ude00 for U+1F600; libyaml refuses it.
+TEST(Reader, TakesJsonThatEscapesCharactersInTwoHalves) {
+  const std::string begin = R"({"lambent": 1, "camera": {"eye": [0, 0, 5], "target": [0, 0, 0]},)"
+                            "\n";
+  const ScenePtr scene =
+      parse_scene(begin + R"("materials": [{"name": "\ud83d\ude00\\ud83d\uDBFF\uDFFF \u00e4"}]})");
+  ASSERT_EQ(scene->materials.size(), 1u);
+  EXPECT_EQ(scene->materials[0].name, "\xf0\x9f\x98\x80\\ud83d\xf4\x8f\xbf\xbf \xc3\xa4");
+
+  // Places are those of the text as it was written.
+  const std::string line = R"("materials": [{"name": "\ud83d\ude00\ud83d\ude00", "diffus": 1}]})";
+  const auto errors = errors_of(begin + line);
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].message, "unknown key 'diffus' in a material");
+  EXPECT_EQ(errors[0].place.line, 2);
+  EXPECT_EQ(errors[0].place.column, int(line.find("\"diffus\"")) + 1);
+  EXPECT_EQ(errors[0].excerpt, line);
+}
+
+TEST(ReaderMessages, HalvesOfCharacters) {
+  const std::string hint =
+      " | a character beyond U+FFFF is written as it is, or as one escape such as \\U0001f600";
+  const std::string refused = "this is not YAML: found invalid Unicode character escape code" + hint;
+  EXPECT_EQ(only(head + R"(background: "\ud83d\ude00")"), refused);                  // no JSON
+  EXPECT_EQ(only(R"({"lambent": 1, "materials": [{"name": "\ud83d"}]})"), refused);  // none either
+  EXPECT_EQ(only(R"({"lambent": 1, "materials": [{"name": "\ude00\ud83d"}]})"), refused);
+}
+
 TEST(Reader, TakesAnyLineEndAndAByteOrderMark) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     const auto errors = errors_of("\xef\xbb\xbflambent: 1" + end +
