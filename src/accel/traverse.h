@@ -260,8 +260,8 @@ void traverse_apart(const WorldView& world, const Bvh& bvh, const BoxRay<F>& box
   }
 }
 
-/// Sends packets of rays through a tree: `leaf(child, i)` for each leaf that packet i may meet before
-/// t_far[i], which it may shorten. A lane with t_far < 0 does not count.
+/// Sends packets of rays through a tree: `leaf(child, packets)` for each leaf, with a bit set for each packet
+/// i that may meet it before t_far[i], which it may shorten. A lane with t_far < 0 does not count.
 template <class F, class Leaf>
 void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>* rays, F* t_far, int count,
                       const Leaf& leaf) {
@@ -269,7 +269,7 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
   if constexpr (lanes_of<F> == 1) {
     if (t_far[0] < 0) return;
     traverse(world, bvh, RayBeam(rays[0], bvh.extent), t_far[0],
-             [&](const BvhChild& child, const BvhNode&, int) { leaf(child, 0); });
+             [&](const BvhChild& child, const BvhNode&, int) { leaf(child, 1); });
   } else {
     BoxRay<F> box_rays[max_packets];
     for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
@@ -295,22 +295,23 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
       if (!PacketBeam::suits(rays + first, t_far + first, size, bvh.extent)) return false;
       if (!beam.set(rays + first, box_rays + first, t_far + first, size)) return false;
       traverse(world, bvh, beam, beam_far, [&](const BvhChild& child, const BvhNode& node, int c) {
-        bool asked = false;
+        std::uint32_t packets = 0;
         for (int i = first; i < first + size; ++i) {
           F near;
-          if (!any(box_rays[i].meets([&](int row) { return F(node.plane[row][c]); }, t_far[i], near)))
-            continue;
-          leaf(child, i);
-          asked = true;
+          if (any(box_rays[i].meets([&](int row) { return F(node.plane[row][c]); }, t_far[i], near)))
+            packets |= 1u << i;
         }
-        if (asked) beam_far = farthest();
+        if (!packets) return;
+        leaf(child, packets);
+        beam_far = farthest();
       });
       return true;
     };
     if (send(0, count)) return;
     for (int i = 0; i < count; ++i)
       if (count == 1 || !send(i, 1))
-        traverse_apart(world, bvh, box_rays[i], t_far[i], [&](const BvhChild& child) { leaf(child, i); });
+        traverse_apart(world, bvh, box_rays[i], t_far[i],
+                       [&](const BvhChild& child) { leaf(child, 1u << i); });
   }
 }
 
@@ -323,40 +324,67 @@ template <class F> QueryRay<F> enter(const Instance& instance, const QueryRay<F>
           number_cast<float>(transform_vector(object_from_world, number_cast<double>(ray.d)))};
 }
 
-/// Asks one primitive of any kind: see(instance, ref, meeting) where some ray meets it.
+/// Asks a primitive with those packets of rays whose bits are set: see(i, instance, ref, meeting) where some
+/// ray of packet i meets it, as meet(ray) says.
+template <class F, class Meet, class See>
+void ask(const PrimitiveRef& ref, std::int32_t instance, const QueryRay<F>* rays, std::uint32_t packets,
+         const Meet& meet, const See& see) {
+  for (; packets; packets &= packets - 1) {
+    const int i = __builtin_ctz(packets);
+    const Meeting<F> m = meet(rays[i]);
+    if (any(m.hit)) see(i, instance, ref, m);
+  }
+}
+/// A primitive of any kind.
 template <class F, class See>
 void ask_primitive(const WorldView& world, const PrimitiveRef& ref, std::int32_t instance,
-                   const QueryRay<F>& ray, const See& see) {
-  const Meeting<F> m = meet(world.geometries[ref.geometry], ref.primitive, ray);
-  if (any(m.hit)) see(instance, ref, m);
+                   const QueryRay<F>* rays, std::uint32_t packets, const See& see) {
+  const Geometry& g = world.geometries[ref.geometry];
+  const auto meet_it = [&](const QueryRay<F>& ray) { return meet(g, ref.primitive, ray); };
+  ask(ref, instance, rays, packets, meet_it, see);
+}
+
+/// Triangles of one geometry. Flat, as much of the time goes by here.
+template <class F, class See>
+[[gnu::flatten, gnu::noinline]] void ask_triangles(const WorldView& world, const BvhChild& leaf,
+                                                   std::int32_t instance, const QueryRay<F>* rays,
+                                                   std::uint32_t packets, const See& see) {
+  const PrimitiveRef* refs = world.refs + leaf.first;
+  const Geometry& g = world.geometries[refs[0].geometry];
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    const std::uint32_t* v = corners(g, refs[i].primitive);
+    const Vec3<F> p0 = spread<F>(g.vertices[v[0]]), p1 = spread<F>(g.vertices[v[1]]),
+                  p2 = spread<F>(g.vertices[v[2]]);
+    const auto meet = [&](const QueryRay<F>& ray) { return meet_triangle(ray, p0, p1, p2); };
+    ask(refs[i], instance, rays, packets, meet, see);
+  }
+}
+
+template <class F, class See>
+[[gnu::flatten, gnu::noinline]] void ask_spheres(const WorldView& world, const BvhChild& leaf,
+                                                 std::int32_t instance, const QueryRay<F>* rays,
+                                                 std::uint32_t packets, const See& see) {
+  for (std::uint32_t i = 0; i < leaf.count; ++i) {
+    const LeafSphere& s = world.leaf_spheres[leaf.first + i];
+    const Vec3<F> center{F(s.x), F(s.y), F(s.z)};
+    const auto meet = [&](const QueryRay<F>& ray) { return meet_sphere(ray, center, F(s.radius)); };
+    ask(world.refs[leaf.first + i], instance, rays, packets, meet, see);
+  }
 }
 
 /// Asks the primitives of a leaf, likewise.
 template <class F, class See>
-void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray,
-              const See& see) {
+void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>* rays,
+              std::uint32_t packets, const See& see) {
   const PrimitiveRef* refs = world.refs + leaf.first;
-  const auto ask = [&](const PrimitiveRef& ref, const Meeting<F>& m) {
-    if (any(m.hit)) see(instance, ref, m);
-  };
   switch (leaf.kind) {
-    case LeafKind::triangles: {
-      const Geometry& g = world.geometries[refs[0].geometry];
-      for (std::uint32_t i = 0; i < leaf.count; ++i) {
-        const std::uint32_t* v = corners(g, refs[i].primitive);
-        ask(refs[i], meet_triangle(ray, spread<F>(g.vertices[v[0]]), spread<F>(g.vertices[v[1]]),
-                                   spread<F>(g.vertices[v[2]])));
-      }
-      return;
-    }
+    case LeafKind::triangles:
+      return ask_triangles(world, leaf, instance, rays, packets, see);
     case LeafKind::spheres:
-      for (std::uint32_t i = 0; i < leaf.count; ++i) {
-        const LeafSphere& s = world.leaf_spheres[leaf.first + i];
-        ask(refs[i], meet_sphere(ray, Vec3<F>{F(s.x), F(s.y), F(s.z)}, F(s.radius)));
-      }
-      return;
+      return ask_spheres(world, leaf, instance, rays, packets, see);
     case LeafKind::mixed:
-      for (std::uint32_t i = 0; i < leaf.count; ++i) ask_primitive(world, refs[i], instance, ray, see);
+      for (std::uint32_t i = 0; i < leaf.count; ++i)
+        ask_primitive(world, refs[i], instance, rays, packets, see);
       return;
   }
 }
@@ -371,7 +399,7 @@ void ask_in_fours(const WorldView& world, const BvhChild& leaf, std::int32_t ins
     const auto m = meet([&](int k) { return first + min(std::uint32_t(k), last); });
     for (std::uint32_t met = lane_bits(m.hit) & ((2u << last) - 1); met; met &= met - 1) {
       const int k = __builtin_ctz(met);
-      see(instance, world.refs[leaf.first + first + std::uint32_t(k)], Meeting<float>{lane(m.t, k), true});
+      see(0, instance, world.refs[leaf.first + first + std::uint32_t(k)], Meeting<float>{lane(m.t, k), true});
     }
   }
 }
@@ -393,8 +421,9 @@ template <class See>
   ask_in_fours(world, leaf, instance, meet, see);
 }
 template <class See>
-void ask_spheres(const WorldView& world, const BvhChild& leaf, std::int32_t instance,
-                 const QueryRay<Pack<float, 4>>& rays, const See& see) {
+[[gnu::flatten, gnu::noinline]] void ask_spheres(const WorldView& world, const BvhChild& leaf,
+                                                 std::int32_t instance, const QueryRay<Pack<float, 4>>& rays,
+                                                 const See& see) {
   using Four = Pack<float, 4>;
   const auto meet = [&](const auto& of_lane) {
     const auto sphere = [&](int k) -> const LeafSphere& {
@@ -408,46 +437,53 @@ void ask_spheres(const WorldView& world, const BvhChild& leaf, std::int32_t inst
 template <class See>
 void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<float>& ray,
               const QueryRay<Pack<float, 4>>& four_rays, const See& see) {
-  if (leaf.kind == LeafKind::mixed || leaf.count == 1) ask_leaf(world, leaf, instance, ray, see);
+  if (leaf.kind == LeafKind::mixed || leaf.count == 1) ask_leaf(world, leaf, instance, &ray, 1, see);
   else if (leaf.kind == LeafKind::triangles) ask_triangles(world, leaf, instance, four_rays, see);
   else ask_spheres(world, leaf, instance, four_rays, see);
+}
+
+/// visit_primitives() for packet i, inside of an instance.
+template <class F, class See>
+void visit_instance(const WorldView& world, std::int32_t number, int i, const QueryRay<F>* rays, F* t_far,
+                    const See& see) {
+  const Instance& instance = world.instances[number];
+  // t keeps its meaning: the direction is not normalised again.
+  const QueryRay<F> inside = enter(instance, rays[i]);
+  const auto see_here = [&](int, std::int32_t, const PrimitiveRef& ref, const Meeting<F>& m) {
+    see(i, number, ref, m);
+  };
+  const auto ask_inside = [&](const BvhChild& leaf, std::uint32_t) {
+    if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, number, &inside, 1, see_here);
+    else ask_leaf(world, leaf, number, inside, QueryRay<Pack<float, 4>>(inside), see_here);
+  };
+  traverse_packets(world, world.bvhs[instance.bvh], &inside, t_far + i, 1, ask_inside);
 }
 
 /// Calls see(i, instance, ref, meeting) for every primitive that some ray of packet i meets and that may lie
 /// before t_far[i].
 template <class F, class See>
 void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far, int count, const See& see) {
-  const auto of_packet = [&](int i) {
-    return [&see, i](std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {
-      see(i, instance, ref, m);
-    };
-  };
   for (std::uint32_t p = 0; p < world.plane_count; ++p)
-    for (int i = 0; i < count; ++i) ask_primitive(world, world.planes[p], -1, rays[i], of_packet(i));
+    ask_primitive(world, world.planes[p], -1, rays, (1u << count) - 1, see);
   const auto four_rays = [&] {
     if constexpr (lanes_of<F> != 1) return 0;
     else return QueryRay<Pack<float, 4>>(rays[0]);
   }();
-  const auto ask = [&](const BvhChild& leaf, std::int32_t instance, const QueryRay<F>& ray, int i) {
-    if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, instance, ray, of_packet(i));
-    else if (instance < 0) ask_leaf(world, leaf, instance, ray, four_rays, of_packet(i));
-    else ask_leaf(world, leaf, instance, ray, QueryRay<Pack<float, 4>>(ray), of_packet(i));
-  };
-  traverse_packets(world, world.bvhs[0], rays, t_far, count, [&](const BvhChild& leaf, int i) {
-    if (leaf.kind != LeafKind::mixed) return ask(leaf, -1, rays[i], i);
+  const auto ask_here = [&](const BvhChild& leaf, std::uint32_t packets) {
+    if (leaf.kind != LeafKind::mixed) {
+      if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, -1, rays, packets, see);
+      else ask_leaf(world, leaf, -1, rays[0], four_rays, see);
+      return;
+    }
     for (std::uint32_t r = leaf.first; r < leaf.first + leaf.count; ++r) {
       const PrimitiveRef& ref = world.refs[r];
-      if (ref.geometry != instance_geometry) {
-        ask_primitive(world, ref, -1, rays[i], of_packet(i));
-        continue;
-      }
-      const Instance& instance = world.instances[ref.primitive];
-      const QueryRay<F> inside =
-          enter(instance, rays[i]);  // t keeps its meaning: the direction is not normalised again
-      traverse_packets(world, world.bvhs[instance.bvh], &inside, t_far + i, 1,
-                       [&](const BvhChild& inner, int) { ask(inner, ref.primitive, inside, i); });
+      if (ref.geometry == instance_geometry)
+        for (std::uint32_t left = packets; left; left &= left - 1)
+          visit_instance(world, ref.primitive, __builtin_ctz(left), rays, t_far, see);
+      else ask_primitive(world, ref, -1, rays, packets, see);
     }
-  });
+  };
+  traverse_packets(world, world.bvhs[0], rays, t_far, count, ask_here);
 }
 
 /// For `count` packets of rays (at most max_packets) the closest hits before hits[i].t, in every active lane.
