@@ -344,11 +344,11 @@ void ask_primitive(const WorldView& world, const PrimitiveRef& ref, std::int32_t
   ask(ref, instance, rays, packets, meet_it, see);
 }
 
-/// Triangles of one geometry. Flat, as much of the time goes by here.
+/// Triangles of one geometry: much of the time goes by here.
 template <class F, class See>
-[[gnu::flatten, gnu::noinline]] void ask_triangles(const WorldView& world, const BvhChild& leaf,
-                                                   std::int32_t instance, const QueryRay<F>* rays,
-                                                   std::uint32_t packets, const See& see) {
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_triangles(const WorldView& world, const BvhChild& leaf,
+                                                     std::int32_t instance, const QueryRay<F>* rays,
+                                                     std::uint32_t packets, const See& see) {
   const PrimitiveRef* refs = world.refs + leaf.first;
   const Geometry& g = world.geometries[refs[0].geometry];
   for (std::uint32_t i = 0; i < leaf.count; ++i) {
@@ -361,9 +361,9 @@ template <class F, class See>
 }
 
 template <class F, class See>
-[[gnu::flatten, gnu::noinline]] void ask_spheres(const WorldView& world, const BvhChild& leaf,
-                                                 std::int32_t instance, const QueryRay<F>* rays,
-                                                 std::uint32_t packets, const See& see) {
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_spheres(const WorldView& world, const BvhChild& leaf,
+                                                   std::int32_t instance, const QueryRay<F>* rays,
+                                                   std::uint32_t packets, const See& see) {
   for (std::uint32_t i = 0; i < leaf.count; ++i) {
     const LeafSphere& s = world.leaf_spheres[leaf.first + i];
     const Vec3<F> center{F(s.x), F(s.y), F(s.z)};
@@ -403,11 +403,10 @@ void ask_in_fours(const WorldView& world, const BvhChild& leaf, std::int32_t ins
     }
   }
 }
-/// Flat, as most of the time of scattered rays goes by here.
 template <class See>
-[[gnu::flatten, gnu::noinline]] void ask_triangles(const WorldView& world, const BvhChild& leaf,
-                                                   std::int32_t instance,
-                                                   const QueryRay<Pack<float, 4>>& rays, const See& see) {
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_triangles(const WorldView& world, const BvhChild& leaf,
+                                                     std::int32_t instance,
+                                                     const QueryRay<Pack<float, 4>>& rays, const See& see) {
   const PrimitiveRef* refs = world.refs + leaf.first;
   const Geometry& g = world.geometries[refs[0].geometry];
   const auto meet = [&, vertices = g.vertices](const auto& of_lane) {
@@ -421,9 +420,9 @@ template <class See>
   ask_in_fours(world, leaf, instance, meet, see);
 }
 template <class See>
-[[gnu::flatten, gnu::noinline]] void ask_spheres(const WorldView& world, const BvhChild& leaf,
-                                                 std::int32_t instance, const QueryRay<Pack<float, 4>>& rays,
-                                                 const See& see) {
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_spheres(const WorldView& world, const BvhChild& leaf,
+                                                   std::int32_t instance,
+                                                   const QueryRay<Pack<float, 4>>& rays, const See& see) {
   using Four = Pack<float, 4>;
   const auto meet = [&](const auto& of_lane) {
     const auto sphere = [&](int k) -> const LeafSphere& {

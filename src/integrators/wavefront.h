@@ -14,9 +14,6 @@
 #include "math/directions.h"
 #include "math/random.h"
 
-// All that is done to a packet of hits in one piece of code, so that it stays in registers.
-#define LAMBENT_FLATTEN __attribute__((flatten))
-
 namespace lambent {
 inline namespace LAMBENT_ISA {
 

@@ -12,6 +12,9 @@
 
 #include "math/number.h"
 
+// All that a function does to a packet in one piece of code, so that it stays in registers.
+#define LAMBENT_FLATTEN __attribute__((flatten))
+
 namespace lambent {
 inline namespace LAMBENT_ISA {
 

@@ -342,7 +342,7 @@ Node* parse_into(Document& document, std::string_view text, int source) {
     try {
       return TreeBuilder(document, source, text).build();
     } catch (const NotYaml&) {
-      // All JSON is YAML but for this.
+      // Of what JSON allows and libyaml does not, programs write this alone.
       if (text.find("\\u") == std::string_view::npos || !nlohmann::json::accept(text)) throw;
       document.nodes.resize(nodes_before);
       const JoinedEscapes joined(text);
