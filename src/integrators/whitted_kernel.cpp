@@ -309,7 +309,7 @@ template <bool Seen> struct Work : Wavefront {
   /// it.
   C share_that_passes(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light,
                       const LightPoint& point) const {
-    const C passes = grey(gather<F>([&](int k) { return open >> k & 1 ? 1.0 : 0.0; }));
+    const C passes = grey(select(mask_of_bits<Truth>(open), F(1), F(0)));
     if (all_opaque() || !frame.whitted.shadows) return passes;
     return passes * transmittance(open, hits, light, point);
   }

@@ -54,7 +54,19 @@ template <class F, class Value> Vec3<F> gather_points(const Value& value) {
 }
 /// Points that stand in memory as floats, in lanes of double.
 template <class F, class Value> Vec3<F> gather_float_points(const Value& value) {
-  return number_cast<double>(gather_points<With<F, float>>(value));
+  constexpr int half = lanes_of<F> / 2;
+  if constexpr (half >= 4) {  // in halves, which a double's two registers are
+    const auto a = number_cast<double>(load_points<half>(value)),
+               b = number_cast<double>(load_points<half, half>(value));
+    const auto both = [](const auto& lower, const auto& upper) {
+      F all;
+      all.p0 = lower.p0, all.p1 = upper.p0;
+      return all;
+    };
+    return {both(a.x, b.x), both(a.y, b.y), both(a.z, b.z)};
+  } else {
+    return number_cast<double>(gather_points<With<F, float>>(value));
+  }
 }
 /// value(k) is the Transform of lane k.
 template <class F, class Value> TransformOf<F> gather_transform(const Value& value) {

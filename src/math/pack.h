@@ -104,6 +104,19 @@ template <class Int, int W> std::uint32_t lane_bits(const Mask<Int, W>& m) {
   if constexpr (In::parts == 2) bits |= register_bits<In::part_lanes>(m.p1) << In::part_lanes;
   return bits;
 }
+/// The reverse: the lanes whose bits are set.
+template <class M> M mask_of_bits(std::uint32_t bits) {
+  using In = typename M::In;
+  using Raw = typename M::Raw;
+  using Int = decltype(Raw{}[0] + 0);
+  const auto part = [bits]<std::size_t... k>(int first, std::index_sequence<k...>) {
+    return Raw(((Raw{} + Int(bits >> first)) & Raw{Int(Int(1) << k)...}) != Raw{});
+  };
+  M result;
+  result.p0 = part(0, std::make_index_sequence<In::part_lanes>());
+  if constexpr (In::parts == 2) result.p1 = part(In::part_lanes, std::make_index_sequence<In::part_lanes>());
+  return result;
+}
 template <int W> inline constexpr std::uint32_t all_lane_bits = W == 32 ? ~0u : (1u << W) - 1;
 template <class Int, int W> bool any(const Mask<Int, W>& m) {
   using In = typename Mask<Int, W>::In;
@@ -288,6 +301,23 @@ template <class Half, std::size_t... k> auto joined(const Half& a, const Half& b
   return __builtin_shufflevector(a, b, int(k)...);
 }
 
+/// Number by number the nearest of Into's. Numbers that become twice as wide do so by the one instruction
+/// that does it: g++ 12 makes four of `__builtin_convertvector`.
+template <class Into, class Raw> Into converted(const Raw& x) {
+  [[maybe_unused]] constexpr bool floats = std::is_same_v<decltype(Raw{}[0] + 0), float>,
+                                  doubles = std::is_same_v<decltype(Into{}[0] + 0), double>;
+#if defined(__AVX512F__)
+  if constexpr (floats && doubles && sizeof(Into) == 64) return Into(_mm512_cvtps_pd(__m256(x)));
+  else
+#endif
+#if defined(__AVX__)
+      if constexpr (floats && doubles && sizeof(Into) == 32)
+    return Into(_mm256_cvtps_pd(__m128(x)));
+  else
+#endif
+    return __builtin_convertvector(x, Into);
+}
+
 /// Lane by lane the nearest To.
 template <class To, Scalar T> To number_cast(T a) { return To(a); }
 template <class To, class T, int W> Pack<To, W> number_cast(const Pack<T, W>& a) {
@@ -295,16 +325,13 @@ template <class To, class T, int W> Pack<To, W> number_cast(const Pack<T, W>& a)
   using Into = Registers<To, W>;
   Pack<To, W> result;
   if constexpr (From::parts == Into::parts) {
-    return by_parts<Pack<To, W>>(
-        [](typename From::Raw x) { return __builtin_convertvector(x, typename Into::Raw); }, a);
+    return by_parts<Pack<To, W>>([](typename From::Raw x) { return converted<typename Into::Raw>(x); }, a);
   } else if constexpr (Into::parts == 2) {  // each half of the register becomes one
-    result.p0 = __builtin_convertvector(half<0>(a.p0, std::make_index_sequence<W / 2>()), typename Into::Raw);
-    result.p1 =
-        __builtin_convertvector(half<W / 2>(a.p0, std::make_index_sequence<W / 2>()), typename Into::Raw);
+    result.p0 = converted<typename Into::Raw>(half<0>(a.p0, std::make_index_sequence<W / 2>()));
+    result.p1 = converted<typename Into::Raw>(half<W / 2>(a.p0, std::make_index_sequence<W / 2>()));
   } else {
     typedef To Half __attribute__((vector_size(W / 2 * sizeof(To))));
-    result.p0 = joined(__builtin_convertvector(a.p0, Half), __builtin_convertvector(a.p1, Half),
-                       std::make_index_sequence<W>());
+    result.p0 = joined(converted<Half>(a.p0), converted<Half>(a.p1), std::make_index_sequence<W>());
   }
   return result;
 }

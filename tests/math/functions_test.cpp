@@ -65,6 +65,27 @@ TEST(Functions, ALaneOfAPacketHasTheBitsOfTheNumber) {
   }
 }
 
+TEST(Functions, APacketThatAsksForNoPowerGetsWhatTheNumbersGet) {
+  for (const double x : {-1.0, 0.0, 1e-310, 0.5, 3.0})
+    for (const double y : {0.0, 7.0}) {
+      const double number = pow(x, y);
+      EXPECT_DOUBLE_EQ(number, std::pow(x < 1e-308 ? 0 : x, y));  // below 0 counts as 0, and 0^0 = 1
+      const DoublePack all = pow(DoublePack(x), DoublePack(y));
+      for (int k = 0; k < lanes; ++k) EXPECT_EQ(lane(all, k), number) << x << "^" << y;
+    }
+}
+
+TEST(Pack, AMaskOfBitsHasThem) {
+  using DoubleMask = MaskOf<DoublePack>;
+  using FloatMask = MaskOf<Pack<float, lanes>>;
+  for (std::uint32_t bits = 0; bits <= all_lane_bits<lanes>; ++bits) {
+    EXPECT_EQ(lane_bits(mask_of_bits<DoubleMask>(bits)), bits);
+    EXPECT_EQ(lane_bits(mask_of_bits<FloatMask>(bits)), bits);
+    const DoublePack ones = select(mask_of_bits<DoubleMask>(bits), DoublePack(1.0), DoublePack(0.0));
+    for (int k = 0; k < lanes; ++k) EXPECT_EQ(lane(ones, k), bits >> k & 1 ? 1 : 0);
+  }
+}
+
 TEST(Functions, SineAndCosine) {
   for (int quarter = -8; quarter <= 8; ++quarter) {
     const auto [s, c] = sincos_degrees(90.0 * quarter);
