@@ -136,7 +136,8 @@ template <bool Seen> struct Work : Wavefront {
     s.ka = ambient_of(hits);
     s.kd = diffuse_of(hits);
     s.ks = specular_of(hits);
-    s.n = shininess_of(hits);
+    // Where Ks is black no power is seen, and x^0 costs nothing.
+    s.n = select(is_black(s.ks), F(0), shininess_of(hits));
     for (int i = 0; i < max_model_parameters; ++i)
       if (Model::info.parameters[i].name)
         s.own[i] = of_materials(hits, [&](const MaterialRecord& m) { return m.own[i]; });

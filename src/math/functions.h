@@ -19,10 +19,14 @@ template <class D> D exp2(D p) {
   const D magic(0x1.8p52);  // adding it rounds to the nearest integer, which then stands in the low bits
   const D k = (q + magic) - magic;
   const D f = (q - k) * D(0x1.62e42fefa39efp-1);  // |f| <= ln(2)/2: the Taylor series below is right to 2^-53
-  D s = D(1.0 / 6227020800.0);
-  for (double c : {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0, 1.0 / 40320.0,
-                   1.0 / 5040.0, 1.0 / 720.0, 1.0 / 120.0, 1.0 / 24.0, 1.0 / 6.0, 0.5, 1.0, 1.0})
-    s = s * f + D(c);
+  // Even and odd powers apart: half as many steps that wait for each other.
+  const D f2 = f * f;
+  D odd(1.0 / 6227020800.0), even(1.0 / 479001600.0);
+  for (double c : {1.0 / 39916800.0, 1.0 / 362880.0, 1.0 / 5040.0, 1.0 / 120.0, 1.0 / 6.0, 1.0})
+    odd = odd * f2 + D(c);
+  for (double c : {1.0 / 3628800.0, 1.0 / 40320.0, 1.0 / 720.0, 1.0 / 24.0, 0.5, 1.0})
+    even = even * f2 + D(c);
+  const D s = odd * f + even;
   // 2^k in two factors, because k = 1024 would not fit into one.
   const D half_k = ((k * D(0.5) + magic) - magic);
   const D a = from_bits(to_bits(half_k + (magic + D(1023.0))) << 52);
@@ -38,10 +42,11 @@ template <class D> D log2(D x) {
   const I e = (bits - I(0x3fe6a09e667f3bcd)) >> 52;  // so that the mantissa falls into [sqrt(1/2), sqrt(2))
   const D m = from_bits(bits - (e << 52));
   const D q = (m - D(1.0)) / (m + D(1.0)), q2 = q * q;  // log m = 2 atanh q, |q| <= 0.1716
-  D s = D(1.0 / 21.0);
-  for (double c : {1.0 / 19.0, 1.0 / 17.0, 1.0 / 15.0, 1.0 / 13.0, 1.0 / 11.0, 1.0 / 9.0, 1.0 / 7.0,
-                   1.0 / 5.0, 1.0 / 3.0, 1.0})
-    s = s * q2 + D(c);
+  const D q4 = q2 * q2;                                 // as in exp2
+  D odd(1.0 / 19.0), even(1.0 / 21.0);
+  for (double c : {1.0 / 15.0, 1.0 / 11.0, 1.0 / 7.0, 1.0 / 3.0}) odd = odd * q4 + D(c);
+  for (double c : {1.0 / 17.0, 1.0 / 13.0, 1.0 / 9.0, 1.0 / 5.0, 1.0}) even = even * q4 + D(c);
+  const D s = odd * q2 + even;
   const D exponent = from_bits(e + I(0x4338000000000000)) - D(0x1.8p52);  // int64 to double by bits alone
   return exponent + D(0x1.71547652b82fep+1) * q * s;
 }
@@ -50,8 +55,11 @@ template <class D> D log2(D x) {
 /// everywhere).
 template <class D> D pow(D x, D y) {
   const D tiny(2.2250738585072014e-308);
-  const D p = exp2(y * log2(max(x, tiny)));
-  return select(x < tiny, select(y == D(0.0), D(1.0), D(0.0)), p);
+  const auto none = x < tiny;
+  const D of_none = select(y == D(0.0), D(1.0), D(0.0));
+  // Highlights that are seen nowhere in a packet, or not at all, cost nothing.
+  if (!any(both(!none, y > D(0.0)))) return select(none, of_none, D(1.0));
+  return select(none, of_none, exp2(y * log2(max(x, tiny))));
 }
 inline float pow(float x, float y) { return float(pow(double(x), double(y))); }
 
