@@ -58,15 +58,32 @@ template <class F> struct Barycentric {
   MaskOf<F> valid;  ///< False where the triangle has no area in double.
 };
 
+/// Where the lanes' corners stand in memory, and their vertex normals: zero where there are none.
+template <int Lanes> struct TriangleCorners {
+  const Vec3<float>*point[3][Lanes], *normal[3][Lanes];
+  bool any_normals = false;
+
+  TriangleCorners(const Geometry* const* g, const std::int32_t* primitive) {
+    static constexpr Vec3<float> none{0, 0, 0};
+    for (int k = 0; k < Lanes; ++k) {
+      const auto& corner = corners(*g[k], primitive[k]);
+      const Vec3<float>* const normals = g[k]->normals;
+      any_normals |= normals != nullptr;
+      for (int i = 0; i < 3; ++i) {
+        point[i][k] = g[k]->vertices + corner[i];
+        normal[i][k] = normals ? normals + corner[i] : &none;
+      }
+    }
+  }
+};
+
 template <class F>
-Barycentric<F> triangle_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o,
-                              const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s) {
+void triangle_point(const Geometry* const* g, const TriangleCorners<lanes_of<F>>& corners, const Vec3<F>& o,
+                    const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s, Barycentric<F>& at) {
   const F zero(0), one(1);
-  const auto corner = [&](int i) {
-    return gather_float_points<F>(
-        [&](int k) -> const Vec3<float>& { return g[k]->vertices[corners(*g[k], primitive[k])[i]]; });
-  };
-  const Vec3<F> p[3] = {corner(0), corner(1), corner(2)};
+  for (int i = 0; i < 3; ++i)
+    at.p[i] = gather_float_points<F>([&](int k) -> const Vec3<float>& { return *corners.point[i][k]; });
+  const auto& p = at.p;
   const Vec3<F> e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
   const F nn = dot(n, n), slope = dot(n, d), size = max(max(max_abs(p[0]), max_abs(p[1])), max_abs(p[2]));
   const F t_plane = select(slope == zero, t_found, dot(n, p[0] - o) / slope);
@@ -87,23 +104,21 @@ Barycentric<F> triangle_point(const Geometry* const* g, const std::int32_t* prim
   }
   s.N = s.Ng;
   s.offset = flat_offset(s.Ng, s.P, size);
-  return {{p[0], p[1], p[2]}, {one - b1 - b2, b1, b2}, MaskOf<F>(!flat)};
+  at.b[0] = one - b1 - b2, at.b[1] = b1, at.b[2] = b2;
+  at.valid = MaskOf<F>(!flat);
 }
 
 /// The shading normal and the lift of points on triangles with vertex normals. Both are made in the world: a
 /// stretched object is shaded as if its corners had been taken into the world first.
 template <class F>
-void smooth_triangle(const Geometry* const* g, const std::int32_t* primitive, const Barycentric<F>& at,
+void smooth_triangle(const TriangleCorners<lanes_of<F>>& corners, const Barycentric<F>& at,
                      const Placing<F>* placing, const Vec3<F>& d, SurfacePoint<F>& s) {
   const F zero(0), one(1);
   const Vec3<F> G = select(dot(s.Ng, d) <= zero, s.Ng, -s.Ng);
   Vec3<F> N{zero, zero, zero}, lift{zero, zero, zero};
   MaskOf<F> smooth = at.valid;
   for (int i = 0; i < 3; ++i) {
-    static constexpr Vec3<float> none{0, 0, 0};
-    Vec3<F> ni = gather_float_points<F>([&](int k) -> const Vec3<float>& {
-      return g[k]->normals ? g[k]->normals[corners(*g[k], primitive[k])[i]] : none;
-    });
+    Vec3<F> ni = gather_float_points<F>([&](int k) -> const Vec3<float>& { return *corners.normal[i][k]; });
     Vec3<F> p = at.p[i];
     smooth = both(smooth, MaskOf<F>(dot(ni, ni) > zero));  // a corner without a normal: the face is flat
     if (placing) {
@@ -195,53 +210,60 @@ SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32
   const Geometry* g[lanes];
   for (int k = 0; k < lanes; ++k) g[k] = &world.geometries[ids.geometry[k]];
   const std::int32_t* primitive = ids.primitive;
+
+  // In the space of the primitives.
   const bool placed = ids.instance[0] >= 0;
+  detail::Placing<F> placing;
+  Vec3<F> o_there = o, d_there = d;
+  if (placed) {
+    const auto instance = [&](int k) -> const Instance& { return world.instances[ids.instance[k]]; };
+    placing = {gather_transform<F>([&](int k) -> const Transform& { return instance(k).world_from_object; }),
+               gather_transform<F>([&](int k) -> const Transform& { return instance(k).object_from_world; })};
+    o_there = transform_point(placing.object_from_world, o);
+    d_there = transform_vector(placing.object_from_world, d);
+  }
 
   SurfacePoint<F> s;
   s.lift = {F(0), F(0), F(0)};
-  detail::Barycentric<F> at;
-  const auto meet_again = [&](const Vec3<F>& o, const Vec3<F>& d) {
-    switch (g[0]->kind) {
-      case PrimitiveKind::triangle:
-        at = detail::triangle_point(g, primitive, o, d, t_found, s);
-        return;
-      case PrimitiveKind::sphere:
-        return detail::sphere_point(g, primitive, o, d, t_found, s);
-      case PrimitiveKind::cone:
-        return detail::cone_point(g, primitive, o, d, t_found, s);
-      case PrimitiveKind::disc:
-        return detail::plane_point(
-            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].center; }),
-            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].normal; }),
-            o, d, t_found, s);
-      case PrimitiveKind::plane:
-        return detail::plane_point(
-            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].point; }),
-            gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].normal; }),
-            o, d, t_found, s);
-      case PrimitiveKind::instance:
-        break;
-    }
-    __builtin_unreachable();
+  const auto into_the_world = [&] {
+    if (!placed) return;
+    const Vec3<F> normal = transform_normal(placing.object_from_world, s.Ng);
+    s.P = transform_point(placing.world_from_object, s.P);
+    s.offset = s.offset / length(normal);  // a height of 1 there is one of 1 / |normal| here
+    s.N = s.Ng = normalize(normal);
+    s.offset = s.offset + detail::flat_offset(s.Ng, s.P, max_abs(placing.world_from_object.translation));
   };
-  bool any_normals = false;
-  for (int k = 0; k < lanes; ++k) any_normals |= g[k]->normals != nullptr;
-  if (!placed) {
-    meet_again(o, d);
-    if (any_normals) detail::smooth_triangle<F>(g, primitive, at, nullptr, d, s);
-    return s;
+  switch (g[0]->kind) {
+    case PrimitiveKind::triangle: {
+      const detail::TriangleCorners<lanes> corners(g, primitive);
+      detail::Barycentric<F> at;
+      detail::triangle_point(g, corners, o_there, d_there, t_found, s, at);
+      into_the_world();
+      if (corners.any_normals) detail::smooth_triangle(corners, at, placed ? &placing : nullptr, d, s);
+      return s;
+    }
+    case PrimitiveKind::sphere:
+      detail::sphere_point(g, primitive, o_there, d_there, t_found, s);
+      break;
+    case PrimitiveKind::cone:
+      detail::cone_point(g, primitive, o_there, d_there, t_found, s);
+      break;
+    case PrimitiveKind::disc:
+      detail::plane_point(
+          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].center; }),
+          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].normal; }),
+          o_there, d_there, t_found, s);
+      break;
+    case PrimitiveKind::plane:
+      detail::plane_point(
+          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].point; }),
+          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].normal; }),
+          o_there, d_there, t_found, s);
+      break;
+    case PrimitiveKind::instance:
+      __builtin_unreachable();
   }
-  const auto instance = [&](int k) -> const Instance& { return world.instances[ids.instance[k]]; };
-  const detail::Placing<F> placing{
-      gather_transform<F>([&](int k) -> const Transform& { return instance(k).world_from_object; }),
-      gather_transform<F>([&](int k) -> const Transform& { return instance(k).object_from_world; })};
-  meet_again(transform_point(placing.object_from_world, o), transform_vector(placing.object_from_world, d));
-  const Vec3<F> normal = transform_normal(placing.object_from_world, s.Ng);
-  s.P = transform_point(placing.world_from_object, s.P);
-  s.offset = s.offset / length(normal);  // a height of 1 there is one of 1 / |normal| here
-  s.N = s.Ng = normalize(normal);
-  s.offset = s.offset + detail::flat_offset(s.Ng, s.P, max_abs(placing.world_from_object.translation));
-  if (any_normals) detail::smooth_triangle(g, primitive, at, &placing, d, s);
+  into_the_world();
   return s;
 }
 inline SurfacePoint<double> surface_at(const WorldView& world, const HitIds<std::int32_t>& ids,

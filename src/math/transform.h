@@ -13,6 +13,11 @@ template <class F> struct TransformOf {
   Vec3<F> translation{F(0), F(0), F(0)};
 };
 using Transform = TransformOf<double>;
+/// Of packets, `TransformOf<F> t;` is nothing until it is set, as Vec3 (vec.h).
+template <class F>
+requires(!Scalar<F>) struct TransformOf<F> {
+  Vec3<F> x, y, z, translation;
+};
 
 inline namespace LAMBENT_ISA {
 
