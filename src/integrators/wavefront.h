@@ -277,21 +277,23 @@ struct Wavefront {
   /// Sorts the rays that hit something into groups; `background(i)` is called for each ray i that did not.
   template <class Background>
   void sort_into_groups(int MaterialRecord::*way_to_shade, const Background& background) {
-    RayQueue& rays = scratch.rays;
+    // One's own, as the bytes that are written below could be those of another's pointers.
+    const RayQueue rays = scratch.rays;
     std::uint32_t size[group_count] = {};
     for (std::uint32_t i = 0; i < rays.count; ++i) {
-      if (rays.geometry[i] < 0) {
+      const std::int32_t geometry = rays.geometry[i];
+      if (geometry < 0) {
         rays.group[i] = no_group;
         background(i);
         continue;
       }
-      rays.material[i] = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
-      const Geometry& geometry = frame.world.geometries[rays.geometry[i]];
-      const MaterialRecord& material = frame.materials[rays.material[i]];
-      const bool painted = material.painted || geometry.colors;
+      const std::uint32_t m = material_of(frame.world, rays.instance[i], geometry, rays.primitive[i]);
+      rays.material[i] = m;
+      // Neighbours often meet the same.
+      const bool as_before = i > 0 && geometry == rays.geometry[i - 1] && m == rays.material[i - 1] &&
+                             rays.instance[i] == rays.instance[i - 1];
       const int group =
-          ((int(geometry.kind) * 2 + (rays.instance[i] >= 0)) * 2 + painted) * most_ways_to_shade +
-          material.*way_to_shade;
+          as_before ? rays.group[i - 1] : group_of(geometry, rays.instance[i] >= 0, m, way_to_shade);
       rays.group[i] = std::uint8_t(group);
       ++size[group];
     }
@@ -303,6 +305,13 @@ struct Wavefront {
       if (rays.group[i] != no_group) rays.order[next[rays.group[i]]++] = i;
   }
 
+  int group_of(std::int32_t geometry, bool placed, std::uint32_t material,
+               int MaterialRecord::*way_to_shade) const {
+    const Geometry& g = frame.world.geometries[geometry];
+    const MaterialRecord& m = frame.materials[material];
+    const bool painted = m.painted || g.colors;
+    return ((int(g.kind) * 2 + placed) * 2 + painted) * most_ways_to_shade + m.*way_to_shade;
+  }
   static bool is_painted(int group) { return group / most_ways_to_shade % 2; }
   static int way_to_shade_of(int group) { return group % most_ways_to_shade; }
 
@@ -364,7 +373,7 @@ struct Wavefront {
     Truth outside;        ///< Whether V is on the outside.
     std::uint32_t material[lanes];
     bool one_material;
-    const Painted* painted = nullptr;  ///< Of hits on painted surfaces.
+    const Painted* painted;  ///< Null, but for hits on painted surfaces.
   };
 
   /// Packets of hits that are looked at together, so that their shadow rays go through the tree together.
@@ -379,27 +388,25 @@ struct Wavefront {
   void fill(Block& block, int group, std::uint32_t& first) const {
     const std::uint32_t last = group_first[group + 1];
     for (; first < last && block.count < beam; first += lanes, ++block.count) {
-      block.at[block.count] = lanes_from(first, last);
-      block.hits[block.count] = look(block.at[block.count]);
+      set_lanes(block.at[block.count], first, last);
+      look(block.at[block.count], block.hits[block.count]);
       if (is_painted(group)) paint_hits(block, block.count);
     }
   }
 
-  Lanes lanes_from(std::uint32_t first, std::uint32_t last) const {
+  void set_lanes(Lanes& at, std::uint32_t first, std::uint32_t last) const {
     const std::uint32_t* order = &scratch.rays.order[first];
-    Lanes at;
     at.count = int(min(last - first, std::uint32_t(lanes)));
     for (int k = 0; k < lanes; ++k) at.ray[k] = order[min(k, at.count - 1)];
     at.adjacent = at.count == lanes && at.ray[lanes - 1] - at.ray[0] == lanes - 1;
     at.active = first_lanes<double>(std::uint32_t(at.count));
-    return at;
   }
 
-  LAMBENT_FLATTEN Hits look(const Lanes& at) const {
+  LAMBENT_FLATTEN void look(const Lanes& at, Hits& hits) const {
     const RayQueue& rays = scratch.rays;
     const Vec3<F> o = at.load(rays.ox, rays.oy, rays.oz), d = at.load(rays.dx, rays.dy, rays.dz);
     std::int32_t instance[lanes], geometry[lanes], primitive[lanes];
-    Hits hits;
+    hits.painted = nullptr;
     hits.one_material = true;
     for (int k = 0; k < lanes; ++k) {
       instance[k] = rays.instance[at.ray[k]], geometry[k] = rays.geometry[at.ray[k]],
@@ -420,7 +427,6 @@ struct Wavefront {
     hits.back = s.P - s.offset * hits.G;
     hits.R = at.load(rays.R) + s.t;
     hits.t = s.t;
-    return hits;
   }
 
   /// Looks the materials of painted surfaces up, lane by lane, and tilts N.
@@ -774,25 +780,37 @@ struct Wavefront {
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int left = samples_per_pixel() - int(first % samples_per_pixel());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      for (int c = 0; c < color_channels; ++c)
-        task.sums[std::size_t(pixel) * color_channels + c] += scratch.samples.color[c][i];
-      if (task.layer_sums) add_layers_to_pixel(pixel, i);
-      if (task.squares) {
-        const double luminance = luminance_of(
-            Rgb{scratch.samples.color[0][i], scratch.samples.color[1][i], scratch.samples.color[2][i]});
-        task.squares[pixel] += luminance * luminance;
+    for (std::uint32_t i = 0; i < count; ++pixel, left = samples_per_pixel()) {
+      const std::uint32_t end = min(i + std::uint32_t(left), count);
+      double* sums = &task.sums[std::size_t(pixel) * color_channels];
+      for (int c = 0; c < color_channels; ++c) {
+        const double* color = scratch.samples.color[c].data;
+        double sum = sums[c];
+        for (std::uint32_t k = i; k < end; ++k) sum += color[k];
+        sums[c] = sum;
       }
-      if (task.least_and_greatest) {
-        float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
-        float* greatest = least + color_channels;
-        for (int c = 0; c < color_channels; ++c) {
-          const auto value = float(scratch.samples.color[c][i]);
-          least[c] = min(least[c], value), greatest[c] = max(greatest[c], value);
-        }
-      }
-      if (--left == 0) left = samples_per_pixel(), ++pixel;
+      if (task.layer_sums)
+        for (std::uint32_t k = i; k < end; ++k) add_layers_to_pixel(pixel, k);
+      if (task.squares) add_squares(pixel, i, end);
+      if (task.least_and_greatest) widen_range(pixel, i, end);
+      i = end;
     }
+  }
+  void add_squares(std::uint32_t pixel, std::uint32_t first, std::uint32_t end) const {
+    const auto& color = scratch.samples.color;
+    for (std::uint32_t i = first; i < end; ++i) {
+      const double luminance = luminance_of(Rgb{color[0][i], color[1][i], color[2][i]});
+      task.squares[pixel] += luminance * luminance;
+    }
+  }
+  void widen_range(std::uint32_t pixel, std::uint32_t first, std::uint32_t end) const {
+    float* least = task.least_and_greatest + std::size_t(pixel) * 2 * color_channels;
+    float* greatest = least + color_channels;
+    for (std::uint32_t i = first; i < end; ++i)
+      for (int c = 0; c < color_channels; ++c) {
+        const auto value = float(scratch.samples.color[c][i]);
+        least[c] = min(least[c], value), greatest[c] = max(greatest[c], value);
+      }
   }
 };
 
