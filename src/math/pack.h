@@ -302,12 +302,12 @@ template <class Half, std::size_t... k> auto joined(const Half& a, const Half& b
 }
 
 /// Number by number the nearest of Into's. Numbers that become twice as wide do so by the one instruction
-/// that does it: g++ 12 makes four of `__builtin_convertvector`.
+/// that does it: g++ 12 makes four of `__builtin_convertvector`, and warns of its own `_mm512_cvtps_pd`.
 template <class Into, class Raw> Into converted(const Raw& x) {
   [[maybe_unused]] constexpr bool floats = std::is_same_v<decltype(Raw{}[0] + 0), float>,
                                   doubles = std::is_same_v<decltype(Into{}[0] + 0), double>;
 #if defined(__AVX512F__)
-  if constexpr (floats && doubles && sizeof(Into) == 64) return Into(_mm512_cvtps_pd(__m256(x)));
+  if constexpr (floats && doubles && sizeof(Into) == 64) return Into(_mm512_maskz_cvtps_pd(0xff, __m256(x)));
   else
 #endif
 #if defined(__AVX__)
