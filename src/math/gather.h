@@ -15,6 +15,18 @@ template <class To, class F> Vec3<With<F, To>> number_cast(const Vec3<F>& v) {
   return {number_cast<To>(v.x), number_cast<To>(v.y), number_cast<To>(v.z)};
 }
 
+/// The points of two packets in one that is twice as wide.
+template <class T, int W>
+Vec3<Pack<T, 2 * W>> side_by_side(const Vec3<Pack<T, W>>& lower, const Vec3<Pack<T, W>>& upper) {
+  const auto both = [](const Pack<T, W>& a, const Pack<T, W>& b) {
+    Pack<T, 2 * W> all;
+    if constexpr (Pack<T, 2 * W>::In::parts == 2) all.p0 = a.p0, all.p1 = b.p0;
+    else all.p0 = joined(a.p0, b.p0, std::make_index_sequence<2 * W>());
+    return all;
+  };
+  return {both(lower.x, upper.x), both(lower.y, upper.y), both(lower.z, upper.z)};
+}
+
 /// Four points that stand in memory. x and y are loaded as one: a register takes those of two points.
 inline Vec3<Pack<float, 4>> load_points(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c,
                                         const Vec3<float>& d) {
@@ -33,14 +45,7 @@ template <int W, int First = 0, class Value> Vec3<Pack<float, W>> load_points(co
   if constexpr (W == 4) {
     return load_points(value(First), value(First + 1), value(First + 2), value(First + 3));
   } else {
-    const auto a = load_points<W / 2, First>(value), b = load_points<W / 2, First + W / 2>(value);
-    const auto both = [](const auto& lower, const auto& upper) {
-      Pack<float, W> all;
-      if constexpr (Pack<float, W>::In::parts == 2) all.p0 = lower.p0, all.p1 = upper.p0;
-      else all.p0 = joined(lower.p0, upper.p0, std::make_index_sequence<W>());
-      return all;
-    };
-    return {both(a.x, b.x), both(a.y, b.y), both(a.z, b.z)};
+    return side_by_side(load_points<W / 2, First>(value), load_points<W / 2, First + W / 2>(value));
   }
 }
 
@@ -56,14 +61,8 @@ template <class F, class Value> Vec3<F> gather_points(const Value& value) {
 template <class F, class Value> Vec3<F> gather_float_points(const Value& value) {
   constexpr int half = lanes_of<F> / 2;
   if constexpr (half >= 4) {  // in halves, which a double's two registers are
-    const auto a = number_cast<double>(load_points<half>(value)),
-               b = number_cast<double>(load_points<half, half>(value));
-    const auto both = [](const auto& lower, const auto& upper) {
-      F all;
-      all.p0 = lower.p0, all.p1 = upper.p0;
-      return all;
-    };
-    return {both(a.x, b.x), both(a.y, b.y), both(a.z, b.z)};
+    return side_by_side(number_cast<double>(load_points<half>(value)),
+                        number_cast<double>(load_points<half, half>(value)));
   } else {
     return number_cast<double>(gather_points<With<F, float>>(value));
   }
