@@ -9,9 +9,8 @@ namespace lambent::bench {
 
 struct OwnQueries {
   const char* isa;
-  /// The distances of the nearest hits of `count` rays; in packets, in beams as
-  /// the renderer has them, or one by one.
-  void (*closest)(const WorldView& world, const RayBlock* rays, std::uint32_t count, bool packets,
+  /// The distances of the nearest hits of `count` rays; packets together, as eye rays go, or each by itself.
+  void (*closest)(const WorldView& world, const RayBlock* rays, std::uint32_t count, bool together,
                   float* answers);
   /// Whether something is in the way, with everything opaque.
   void (*occluded)(const WorldView& world, const RayBlock* rays, std::uint32_t count, float* answers);

@@ -52,10 +52,9 @@ void all_closest(const WorldView& world, const bench::RayBlock* rays, std::uint3
   });
 }
 
-void closest(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, bool packets,
+void closest(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, bool together,
              float* answers) {
-  if (packets) all_closest<QueryPack>(world, rays, count, beam, answers);
-  else all_closest<float>(world, rays, count, 1, answers);
+  all_closest<QueryPack>(world, rays, count, together ? beam : 1, answers);
 }
 
 void occluded(const WorldView& world, const bench::RayBlock* rays, std::uint32_t count, float* answers) {

@@ -78,6 +78,18 @@ template <class F> QueryRay<float> lane(const QueryRay<F>& rays, int k) {
           {lane(rays.d.x, k), lane(rays.d.y, k), lane(rays.d.z, k)}};
 }
 
+/// The ray of lane k in every lane.
+template <class Into, class F> QueryRay<Into> spread_lane(const QueryRay<F>& rays, int k) {
+  QueryRay<Into> one;
+  one.o = {Into(lane(rays.o.x, k)), Into(lane(rays.o.y, k)), Into(lane(rays.o.z, k))};
+  one.d = {Into(lane(rays.d.x, k)), Into(lane(rays.d.y, k)), Into(lane(rays.d.z, k))};
+  const bool along_x = lane(rays.along_x, k), along_y = lane(rays.along_y, k);
+  one.along_x = MaskOf<Into>(along_x), one.along_y = MaskOf<Into>(along_y);
+  one.axis = along_x ? 0 : along_y ? 1 : 2;
+  one.shear_x = lane(rays.shear_x, k), one.shear_y = lane(rays.shear_y, k), one.scale = lane(rays.scale, k);
+  return one;
+}
+
 /// A distance and whether it is one.
 template <class F> struct Meeting {
   F t;

@@ -8,6 +8,8 @@
 // times the rounding of the tests of intersect.h, which see coordinates relative to the origin, (|o| +
 // extent) at the most, each off by a few units of 2^-24.
 
+#include <utility>
+
 #include "accel/intersect.h"
 #include "math/gather.h"
 
@@ -92,13 +94,13 @@ struct PacketBeam {
     NodeLanes near_low, near_high, far_low, far_high;  // what to subtract from p / d at its ends
   } axes[3];
 
-  /// Whether rays lie so close together that a beam of them is not much wider than each: within 20 degrees,
+  /// Whether rays lie so close together that a beam of them is not much wider than each: within 5 degrees,
   /// and the origins within a sixteenth of the scene. A matter of speed alone.
   template <class F> static bool suits(const QueryRay<F>* rays, const F* t_far, int count, float extent) {
     const int first = __builtin_ctz(lane_bits(t_far[0] >= F(0.f)) | (1u << (lanes_of<F> - 1)));
     const Vec3<F> o{F(lane(rays[0].o.x, first)), F(lane(rays[0].o.y, first)), F(lane(rays[0].o.z, first))},
         d{F(lane(rays[0].d.x, first)), F(lane(rays[0].d.y, first)), F(lane(rays[0].d.z, first))};
-    const F limit = F(0.94f * 0.94f) * dot(d, d), reach(extent * extent / 256);
+    const F limit = F(0.996f * 0.996f) * dot(d, d), reach(extent * extent / 256);
     MaskOf<F> apart(false);
     for (int i = 0; i < count; ++i) {
       const Vec3<F> between = rays[i].o - o;
@@ -110,11 +112,8 @@ struct PacketBeam {
     return !any(apart);
   }
 
-  /// False where the rays do not all go the same way; then this is no beam. In line, as a packet that enters
-  /// an instance asks little more of it.
-  template <class F>
-  [[gnu::always_inline]] bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far,
-                                  int count) {
+  /// False where the rays do not all go the same way; then this is no beam.
+  template <class F> bool set(const QueryRay<F>* rays, const BoxRay<F>* box_rays, const F* t_far, int count) {
     const F zero(0.f);
     for (int a = 0; a < 3; ++a) {
       const auto of = [a](const auto& v) { return a == 0 ? v.x : a == 1 ? v.y : v.z; };
@@ -162,22 +161,38 @@ struct PacketBeam {
   }
 };
 
+/// A node of a tree, or a leaf as a child of its node.
+struct TreePlace {
+  std::uint32_t node;
+  int child;  ///< -1: the node itself.
+};
+inline TreePlace place_of(std::uint32_t number, const BvhNode& node, int i) {
+  return node.count[i] > 0 ? TreePlace{number, i} : TreePlace{node.first[i], -1};
+}
+inline BvhChild child_of(const BvhNode& node, int i) { return {node.first[i], node.count[i], node.kind[i]}; }
+
+/// The memory of a child that is put off: it is asked soon.
+inline void send_for(const WorldView& world, const BvhNode& node, int i) {
+  const std::uint32_t first = node.first[i];
+  if (node.count[i] > 0) return __builtin_prefetch(world.refs + first);
+  __builtin_prefetch(world.nodes + first);
+  __builtin_prefetch(&world.nodes[first].first);  // its second half
+}
+
 /// Visits the leaves of a tree that a beam meets before t_far, roughly near to far; `leaf(child, node, i)`,
 /// child i of that node, may shorten t_far.
 template <class Beam, class Leaf>
 void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t_far, const Leaf& leaf) {
   struct Entry {
     float near;
-    std::uint32_t node;
-    int child;  // -1: the node itself
+    TreePlace at;
   } stack[max_stack];
   int size = 0;
-  std::uint32_t at_node = bvh.root;
-  int at_child = -1;
+  TreePlace at{bvh.root, -1};
   for (;;) {
-    const BvhNode& node = world.nodes[at_node];
-    if (at_child >= 0) {
-      leaf(BvhChild{node.first[at_child], node.count[at_child], node.kind[at_child]}, node, at_child);
+    const BvhNode& node = world.nodes[at.node];
+    if (at.child >= 0) {
+      leaf(child_of(node, at.child), node, at.child);
     } else {
       NodeLanes near;
       std::uint32_t met = beam.meets(node, t_far, near);
@@ -192,21 +207,14 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
             const bool is_nearer = distance[i] < distance[nearest];
             const int later = is_nearer ? nearest : i;
             nearest = is_nearer ? i : nearest;
-            int at = size++;
-            for (; at > bottom && stack[at - 1].near < distance[later]; --at) stack[at] = stack[at - 1];
-            const std::uint32_t first = node.first[later];
-            if (node.count[later] > 0) {  // It is asked soon: its memory is sent for.
-              __builtin_prefetch(world.refs + first);
-              stack[at] = {distance[later], at_node, later};
-            } else {
-              __builtin_prefetch(world.nodes + first);
-              __builtin_prefetch(&world.nodes[first].first);  // its second half
-              stack[at] = {distance[later], first, -1};
-            }
+            int place = size++;
+            for (; place > bottom && stack[place - 1].near < distance[later]; --place)
+              stack[place] = stack[place - 1];
+            send_for(world, node, later);
+            stack[place] = {distance[later], place_of(at.node, node, later)};
           }
         }
-        if (node.count[nearest] > 0) at_child = nearest;
-        else at_node = node.first[nearest];
+        at = place_of(at.node, node, nearest);
         continue;
       }
     }
@@ -214,104 +222,160 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
       if (size == 0) return;
       --size;
     } while (!(stack[size].near <= t_far));
-    at_node = stack[size].node;
-    at_child = stack[size].child;
+    at = stack[size].at;
   }
 }
 
-/// The same for the rays of one packet that go different ways, box by box.
+/// The rays of a packet that go different ways, as boxes see them.
+template <class F> struct RaysApart {
+  BoxRay<F> together;
+  float numbers[9][lanes_of<F>];  ///< The same numbers, of one lane after the other.
+
+  explicit RaysApart(const BoxRay<F>& rays) : together(rays) {
+    const auto lay_out = [&](const Vec3<F>& v, int first) {
+      v.x.store(numbers[first]), v.y.store(numbers[first + 1]), v.z.store(numbers[first + 2]);
+    };
+    lay_out(rays.inverse_d, 0), lay_out(rays.low, 3), lay_out(rays.high, 6);
+  }
+  /// visit(i, near, met) for each child i of a node that some of `lanes` meet before t_far: met are those
+  /// that do. Where there is but one, all boxes at once.
+  template <class Visit>
+  void each_met(const BvhNode& node, std::uint32_t lanes, const F& t_far, const Visit& visit) const {
+    if ((lanes & (lanes - 1)) == 0) {
+      const int k = __builtin_ctz(lanes);
+      const auto three = [&](int first) {
+        return Vec3<NodeLanes>{numbers[first][k], numbers[first + 1][k], numbers[first + 2][k]};
+      };
+      BoxRay<NodeLanes> ray;
+      ray.inverse_d = three(0), ray.low = three(3), ray.high = three(6);
+      const auto side = [&](int row) { return NodeLanes::load(node.plane[row]); };
+      NodeLanes near;
+      std::uint32_t met = lane_bits(ray.meets(side, NodeLanes(lane(t_far, k)), near));
+      float distance[bvh_width];
+      near.store(distance);
+      for (met &= (1u << node.children) - 1; met; met &= met - 1)
+        visit(__builtin_ctz(met), F(distance[__builtin_ctz(met)]), lanes);
+      return;
+    }
+    for (int i = 0; i < int(node.children); ++i) {
+      F near;
+      const MaskOf<F> meets = together.meets([&](int row) { return F(node.plane[row][i]); }, t_far, near);
+      if (const std::uint32_t met = lane_bits(meets)) visit(i, select(meets, near, F(__builtin_inff())), met);
+    }
+  }
+};
+
+/// The same for the rays of one packet that go different ways, box by box: `leaf(child, lanes)`, with a bit
+/// for each ray that comes to it, may shorten t_far. A ray alone waits at each node for the answer that says
+/// where to go on; a packet, even one of rays that soon part, waits once for all of them.
 template <class F, class Leaf>
-void traverse_apart(const WorldView& world, const Bvh& bvh, const BoxRay<F>& box_ray, F& t_far,
+void traverse_apart(const WorldView& world, const Bvh& bvh, const RaysApart<F>& rays, const F& t_far,
                     const Leaf& leaf) {
   struct Entry {
     F near;
-    std::uint32_t first, count;
-    LeafKind kind;
+    TreePlace at;
+    std::uint32_t lanes;  // that meet it
   } stack[max_stack];
   int size = 0;
-  BvhChild child{bvh.root, 0};
-  for (;;) {
-    if (child.count > 0) {
-      leaf(child);
+  TreePlace at{bvh.root, -1};
+  std::uint32_t lanes = lane_bits(t_far >= F(0.f));
+  while (lanes) {
+    const BvhNode& node = world.nodes[at.node];
+    if (at.child >= 0) {
+      leaf(child_of(node, at.child), lanes);
     } else {
-      const BvhNode& node = world.nodes[child.first];
-      const int bottom = size;
-      float keys[bvh_width];
-      for (std::uint32_t i = 0; i < node.children; ++i) {
-        F near;
-        const MaskOf<F> met = box_ray.meets([&](int row) { return F(node.plane[row][i]); }, t_far, near);
-        if (!any(met)) continue;
-        near = select(met, near, F(__builtin_inff()));
-        const float key = least(near);
-        int at = size++;  // sorted in, the nearest on top
-        for (; at > bottom && keys[at - 1 - bottom] < key; --at) {
-          stack[at] = stack[at - 1];
-          keys[at - bottom] = keys[at - 1 - bottom];
+      int nearest = -1;
+      F least;  // how near it is
+      rays.each_met(node, lanes, t_far, [&](int i, F near, std::uint32_t met) {
+        if (nearest < 0) {
+          nearest = i, least = near, lanes = met;
+          return;
         }
-        keys[at - bottom] = key;
-        stack[at] = {near, node.first[i], node.count[i], node.kind[i]};
+        if (any(near < least)) std::swap(near, least), std::swap(i, nearest), std::swap(met, lanes);
+        send_for(world, node, i);
+        stack[size++] = {near, place_of(at.node, node, i), met};
+      });
+      if (nearest >= 0) {
+        at = place_of(at.node, node, nearest);
+        continue;
       }
     }
-    do {
-      if (size == 0) return;
+    for (lanes = 0; lanes == 0 && size > 0;) {
       --size;
-    } while (!any(stack[size].near <= t_far));
-    child = {stack[size].first, stack[size].count, stack[size].kind};
+      lanes = lane_bits(stack[size].near <= t_far) & stack[size].lanes;
+      at = stack[size].at;
+    }
   }
 }
 
-/// Sends packets of rays through a tree: `leaf(child, packets)` for each leaf, with a bit set for each packet
-/// i that may meet it before t_far[i], which it may shorten. A lane with t_far < 0 does not count.
+/// The rays that come to a leaf.
+struct Comers {
+  std::uint32_t packets;  ///< A bit for each packet of which some ray comes.
+  std::uint32_t lanes;    ///< Of a packet that goes by itself, a bit for each ray that comes; else all.
+
+  /// Whether a leaf of one kind had better be asked with one ray after the other. A sphere costs little.
+  template <class F> bool are_few(const BvhChild& leaf) const {
+    if (leaf.count == 1) return false;
+    constexpr int few = min(4, lanes_of<F> / 2);
+    return lanes_of<F> == 1 || (leaf.kind == LeafKind::triangles && __builtin_popcount(lanes) <= few);
+  }
+};
+
+/// Sends packets through a tree as one beam. False where they do not lie close together.
+template <class F, class Leaf>
+bool traverse_together(const WorldView& world, const Bvh& bvh, const QueryRay<F>* rays,
+                       const BoxRay<F>* box_rays, const F* t_far, int count, const Leaf& leaf) {
+  const auto farthest = [&] {
+    F most = t_far[0];
+    for (int i = 1; i < count; ++i) most = max(most, t_far[i]);
+    return greatest(most);
+  };
+  float beam_far = farthest();
+  if (beam_far < 0) return true;
+  PacketBeam beam;
+  if (!PacketBeam::suits(rays, t_far, count, bvh.extent) || !beam.set(rays, box_rays, t_far, count))
+    return false;
+  traverse(world, bvh, beam, beam_far, [&](const BvhChild& child, const BvhNode& node, int c) {
+    std::uint32_t packets = 0;
+    for (int i = 0; i < count; ++i) {
+      F near;
+      if (any(box_rays[i].meets([&](int row) { return F(node.plane[row][c]); }, t_far[i], near)))
+        packets |= 1u << i;
+    }
+    if (!packets) return;
+    leaf(child, Comers{packets, all_lane_bits<lanes_of<F>>});
+    beam_far = farthest();
+  });
+  return true;
+}
+
+/// Sends packets of rays through a tree: `leaf(child, comers)` for each leaf that rays of packet i may meet
+/// before t_far[i], which it may shorten. A lane with t_far < 0 does not count.
 template <class F, class Leaf>
 void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>* rays, F* t_far, int count,
                       const Leaf& leaf) {
   if (bvh.empty) return;
   if constexpr (lanes_of<F> == 1) {
     if (t_far[0] < 0) return;
-    traverse(world, bvh, RayBeam(rays[0], bvh.extent), t_far[0],
-             [&](const BvhChild& child, const BvhNode&, int) { leaf(child, 1); });
+    const auto ask = [&](const BvhChild& child, const BvhNode&, int) { leaf(child, Comers{1, 1}); };
+    traverse(world, bvh, RayBeam(rays[0], bvh.extent), t_far[0], ask);
   } else {
     BoxRay<F> box_rays[max_packets];
     for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
-    // Of the packets that enter an instance many pass by it, and a box costs less than a beam.
-    if (count == 1) {
+    if (count > 1 && traverse_together(world, bvh, rays, box_rays, t_far, count, leaf)) return;
+    for (int i = 0; i < count; ++i) {
+      // Of the packets that enter an instance many pass by it.
       const auto side = [&](int row) {
         const Vec3<float>& corner = row < 3 ? bvh.lower : bvh.upper;
         return F(row % 3 == 0 ? corner.x : row % 3 == 1 ? corner.y : corner.z);
       };
       F near;
-      if (!any(box_rays[0].meets(side, t_far[0], near))) return;
-    }
-    // All packets as one beam, or else each as one, or else box by box.
-    const auto send = [&](int first, int size) {
-      const auto farthest = [&] {
-        F most = t_far[first];
-        for (int i = first + 1; i < first + size; ++i) most = max(most, t_far[i]);
-        return greatest(most);
+      if (!any(box_rays[i].meets(side, t_far[i], near))) continue;
+      const auto ask = [&](const BvhChild& child, std::uint32_t lanes) {
+        leaf(child, Comers{1u << i, lanes});
       };
-      float beam_far = farthest();
-      if (beam_far < 0) return true;
-      PacketBeam beam;
-      if (!PacketBeam::suits(rays + first, t_far + first, size, bvh.extent)) return false;
-      if (!beam.set(rays + first, box_rays + first, t_far + first, size)) return false;
-      traverse(world, bvh, beam, beam_far, [&](const BvhChild& child, const BvhNode& node, int c) {
-        std::uint32_t packets = 0;
-        for (int i = first; i < first + size; ++i) {
-          F near;
-          if (any(box_rays[i].meets([&](int row) { return F(node.plane[row][c]); }, t_far[i], near)))
-            packets |= 1u << i;
-        }
-        if (!packets) return;
-        leaf(child, packets);
-        beam_far = farthest();
-      });
-      return true;
-    };
-    if (send(0, count)) return;
-    for (int i = 0; i < count; ++i)
-      if (count == 1 || !send(i, 1))
-        traverse_apart(world, bvh, box_rays[i], t_far[i],
-                       [&](const BvhChild& child) { leaf(child, 1u << i); });
+      traverse_apart(world, bvh, RaysApart<F>(box_rays[i]), t_far[i], ask);
+    }
   }
 }
 
@@ -372,73 +436,89 @@ template <class F, class See>
   }
 }
 
-/// Asks the primitives of a leaf, likewise.
-template <class F, class See>
-void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>* rays,
-              std::uint32_t packets, const See& see) {
-  const PrimitiveRef* refs = world.refs + leaf.first;
-  switch (leaf.kind) {
-    case LeafKind::triangles:
-      return ask_triangles(world, leaf, instance, rays, packets, see);
-    case LeafKind::spheres:
-      return ask_spheres(world, leaf, instance, rays, packets, see);
-    case LeafKind::mixed:
-      for (std::uint32_t i = 0; i < leaf.count; ++i)
-        ask_primitive(world, refs[i], instance, rays, packets, see);
-      return;
-  }
-}
-
-/// The same for one ray: four primitives at a time, a lane for each. meet(of_lane) is where the ray meets
-/// those that stand at of_lane(0) to of_lane(3) in the leaf; in lanes that are left over stands the last.
-template <class Meet, class See>
-void ask_in_fours(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const Meet& meet,
-                  const See& see) {
-  for (std::uint32_t first = 0; first < leaf.count; first += 4) {
-    const std::uint32_t last = min(leaf.count - first, 4u) - 1;
-    const auto m = meet([&](int k) { return first + min(std::uint32_t(k), last); });
-    for (std::uint32_t met = lane_bits(m.hit) & ((2u << last) - 1); met; met &= met - 1) {
-      const int k = __builtin_ctz(met);
-      see(0, instance, world.refs[leaf.first + first + std::uint32_t(k)], Meeting<float>{lane(m.t, k), true});
+/// The same for few rays: several primitives at a time, a lane for each, with one ray after the other.
+/// load(of_lane) brings the primitives that stand at of_lane(0), of_lane(1) ... in the leaf into lanes,
+/// meet(primitives, ray) is where a ray meets them. In lanes that are left over stands the last.
+template <int Width, class F, class Load, class Meet, class See>
+void ask_side_by_side(const WorldView& world, const BvhChild& leaf, std::int32_t instance,
+                      const QueryRay<F>* rays, const Comers& comers, const Load& load, const Meet& meet,
+                      const See& see) {
+  using Wide = Pack<float, Width>;
+  const int i = __builtin_ctz(comers.packets);
+  for (std::uint32_t first = 0; first < leaf.count; first += Width) {
+    const std::uint32_t last = min(leaf.count - first, std::uint32_t(Width)) - 1;
+    const auto primitives = load([&](int k) { return first + min(std::uint32_t(k), last); });
+    for (std::uint32_t left = comers.lanes; left; left &= left - 1) {
+      const int k = __builtin_ctz(left);
+      const Meeting<Wide> m = meet(primitives, spread_lane<Wide>(rays[i], k));
+      for (std::uint32_t met = lane_bits(m.hit) & ((2u << last) - 1); met; met &= met - 1) {
+        const int n = __builtin_ctz(met);
+        const PrimitiveRef& ref = world.refs[leaf.first + first + std::uint32_t(n)];
+        if constexpr (lanes_of<F> == 1) see(i, instance, ref, Meeting<F>{lane(m.t, n), true});
+        else see(i, instance, ref, Meeting<F>{F(lane(m.t, n)), mask_of_bits<MaskOf<F>>(1u << k)});
+      }
     }
   }
 }
-template <class See>
-[[gnu::noinline]] LAMBENT_FLATTEN void ask_triangles(const WorldView& world, const BvhChild& leaf,
-                                                     std::int32_t instance,
-                                                     const QueryRay<Pack<float, 4>>& rays, const See& see) {
+template <int Width, class F, class See>
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_triangles_alone(const WorldView& world, const BvhChild& leaf,
+                                                           std::int32_t instance, const QueryRay<F>* rays,
+                                                           const Comers& comers, const See& see) {
+  using Wide = Pack<float, Width>;
+  struct Corners {
+    Vec3<Wide> p0, p1, p2;
+  };
   const PrimitiveRef* refs = world.refs + leaf.first;
   const Geometry& g = world.geometries[refs[0].geometry];
-  const auto meet = [&, vertices = g.vertices](const auto& of_lane) {
-    const std::uint32_t* v[4];
-    for (int k = 0; k < 4; ++k) v[k] = corners(g, refs[of_lane(k)].primitive);
+  const auto load = [&, vertices = g.vertices](const auto& of_lane) -> Corners {
+    const std::uint32_t* v[Width];
+    for (int k = 0; k < Width; ++k) v[k] = corners(g, refs[of_lane(k)].primitive);
     const auto corner = [&](int c) {
-      return gather_points<Pack<float, 4>>([&](int k) -> const Vec3<float>& { return vertices[v[k][c]]; });
+      return gather_points<Wide>([&](int k) -> const Vec3<float>& { return vertices[v[k][c]]; });
     };
-    return meet_triangle(rays, corner(0), corner(1), corner(2));
+    return {corner(0), corner(1), corner(2)};
   };
-  ask_in_fours(world, leaf, instance, meet, see);
+  const auto meet = [](const Corners& c, const QueryRay<Wide>& ray) {
+    return meet_triangle(ray, c.p0, c.p1, c.p2);
+  };
+  ask_side_by_side<Width>(world, leaf, instance, rays, comers, load, meet, see);
 }
-template <class See>
-[[gnu::noinline]] LAMBENT_FLATTEN void ask_spheres(const WorldView& world, const BvhChild& leaf,
-                                                   std::int32_t instance,
-                                                   const QueryRay<Pack<float, 4>>& rays, const See& see) {
-  using Four = Pack<float, 4>;
-  const auto meet = [&](const auto& of_lane) {
+template <int Width, class F, class See>
+[[gnu::noinline]] LAMBENT_FLATTEN void ask_spheres_alone(const WorldView& world, const BvhChild& leaf,
+                                                         std::int32_t instance, const QueryRay<F>* rays,
+                                                         const Comers& comers, const See& see) {
+  using Wide = Pack<float, Width>;
+  struct Spheres {
+    Vec3<Wide> center;
+    Wide radius;
+  };
+  const auto load = [&](const auto& of_lane) -> Spheres {
     const auto sphere = [&](int k) -> const LeafSphere& {
       return world.leaf_spheres[leaf.first + of_lane(k)];
     };
-    return meet_sphere(rays, gather_points<Four>(sphere),
-                       gather<Four>([&](int k) { return sphere(k).radius; }));
+    return {gather_points<Wide>(sphere), gather<Wide>([&](int k) { return sphere(k).radius; })};
   };
-  ask_in_fours(world, leaf, instance, meet, see);
+  const auto meet = [](const Spheres& s, const QueryRay<Wide>& ray) {
+    return meet_sphere(ray, s.center, s.radius);
+  };
+  ask_side_by_side<Width>(world, leaf, instance, rays, comers, load, meet, see);
 }
-template <class See>
-void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<float>& ray,
-              const QueryRay<Pack<float, 4>>& four_rays, const See& see) {
-  if (leaf.kind == LeafKind::mixed || leaf.count == 1) ask_leaf(world, leaf, instance, &ray, 1, see);
-  else if (leaf.kind == LeafKind::triangles) ask_triangles(world, leaf, instance, four_rays, see);
-  else ask_spheres(world, leaf, instance, four_rays, see);
+
+/// Asks the primitives of a leaf of one kind.
+template <class F, class See>
+void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>* rays,
+              const Comers& comers, const See& see) {
+  constexpr int wide = native_float_lanes < 8 ? 4 : 8;
+  const bool few = comers.are_few<F>(leaf), many_primitives = leaf.count > 4;
+  if (leaf.kind == LeafKind::triangles) {
+    if (!few) ask_triangles(world, leaf, instance, rays, comers.packets, see);
+    else if (many_primitives) ask_triangles_alone<wide>(world, leaf, instance, rays, comers, see);
+    else ask_triangles_alone<4>(world, leaf, instance, rays, comers, see);
+  } else {
+    if (!few) ask_spheres(world, leaf, instance, rays, comers.packets, see);
+    else if (many_primitives) ask_spheres_alone<wide>(world, leaf, instance, rays, comers, see);
+    else ask_spheres_alone<4>(world, leaf, instance, rays, comers, see);
+  }
 }
 
 /// visit_primitives() for packet i, inside of an instance.
@@ -451,9 +531,10 @@ void visit_instance(const WorldView& world, std::int32_t number, int i, const Qu
   const auto see_here = [&](int, std::int32_t, const PrimitiveRef& ref, const Meeting<F>& m) {
     see(i, number, ref, m);
   };
-  const auto ask_inside = [&](const BvhChild& leaf, std::uint32_t) {
-    if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, number, &inside, 1, see_here);
-    else ask_leaf(world, leaf, number, inside, QueryRay<Pack<float, 4>>(inside), see_here);
+  const auto ask_inside = [&](const BvhChild& leaf, const Comers& comers) {
+    if (leaf.kind != LeafKind::mixed) return ask_leaf(world, leaf, number, &inside, comers, see_here);
+    for (std::uint32_t r = leaf.first; r < leaf.first + leaf.count; ++r)
+      ask_primitive(world, world.refs[r], number, &inside, 1, see_here);
   };
   traverse_packets(world, world.bvhs[instance.bvh], &inside, t_far + i, 1, ask_inside);
 }
@@ -464,22 +545,14 @@ template <class F, class See>
 void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far, int count, const See& see) {
   for (std::uint32_t p = 0; p < world.plane_count; ++p)
     ask_primitive(world, world.planes[p], -1, rays, (1u << count) - 1, see);
-  const auto four_rays = [&] {
-    if constexpr (lanes_of<F> != 1) return 0;
-    else return QueryRay<Pack<float, 4>>(rays[0]);
-  }();
-  const auto ask_here = [&](const BvhChild& leaf, std::uint32_t packets) {
-    if (leaf.kind != LeafKind::mixed) {
-      if constexpr (lanes_of<F> != 1) ask_leaf(world, leaf, -1, rays, packets, see);
-      else ask_leaf(world, leaf, -1, rays[0], four_rays, see);
-      return;
-    }
+  const auto ask_here = [&](const BvhChild& leaf, const Comers& comers) {
+    if (leaf.kind != LeafKind::mixed) return ask_leaf(world, leaf, -1, rays, comers, see);
     for (std::uint32_t r = leaf.first; r < leaf.first + leaf.count; ++r) {
       const PrimitiveRef& ref = world.refs[r];
       if (ref.geometry == instance_geometry)
-        for (std::uint32_t left = packets; left; left &= left - 1)
+        for (std::uint32_t left = comers.packets; left; left &= left - 1)
           visit_instance(world, ref.primitive, __builtin_ctz(left), rays, t_far, see);
-      else ask_primitive(world, ref, -1, rays, packets, see);
+      else ask_primitive(world, ref, -1, rays, comers.packets, see);
     }
   };
   traverse_packets(world, world.bvhs[0], rays, t_far, count, ask_here);

@@ -397,7 +397,7 @@ template <bool Seen> struct Work : Wavefront {
     counts.shadow += std::uint64_t(__builtin_popcount(asked));
     if (frame.listener) tell(rays, asked, t_far);
     MaskOf<Query> open = mask_cast<std::int32_t>(lit);
-    find_open_lanes(rays, t_far, !frame.any_transmits, open);
+    find_open(frame.world, &rays, &t_far, 1, !frame.any_transmits, &open);
     std::uint32_t bits = lane_bits(open);
     if (!frame.any_transmits) return bits;
     double left[lanes];

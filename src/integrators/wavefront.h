@@ -167,15 +167,13 @@ struct Wavefront {
 
   // ---- where rays end
 
-  /// Eye rays lie close together and go through the tree in packets; scattered ones do not, and go one by
-  /// one.
+  /// Eye rays lie close together, so that many go through the tree as one; scattered ones go their own ways.
   void trace(bool coherent) {
     RayQueue& rays = scratch.rays;
     if (frame.listener) tell(rays, coherent ? RayKind::eye : RayKind::scattered);
-    if (coherent)
-      for (std::uint32_t i = 0; i < rays.count; i += beam * lanes) trace_packets(rays, i);
-    else
-      for (std::uint32_t i = 0; i < rays.count; ++i) trace_one(rays, i);
+    const int together = coherent ? beam : 1;
+    for (std::uint32_t i = 0; i < rays.count; i += std::uint32_t(together * lanes))
+      trace_packets(rays, i, together);
     if (frame.any_gaps)
       for (std::uint32_t i = 0; i < rays.count; ++i) pass_gaps(rays, i);
   }
@@ -226,13 +224,13 @@ struct Wavefront {
     }
   }
 
-  /// `beam` packets from ray `first` on, together.
-  void trace_packets(RayQueue& rays, std::uint32_t first) const {
+  /// So many packets from ray `first` on, together.
+  void trace_packets(RayQueue& rays, std::uint32_t first, int together) const {
     QueryRay<Query> ray[beam];
     MaskOf<Query> active[beam];
     Closest<Query> hit[beam];
     int count = 0;
-    for (std::uint32_t i = first; i < rays.count && count < beam; i += lanes, ++count) {
+    for (std::uint32_t i = first; i < rays.count && count < together; i += lanes, ++count) {
       ray[count] = QueryRay<Query>(
           {Query::load(&rays.qx[i]), Query::load(&rays.qy[i]), Query::load(&rays.qz[i])},
           number_cast<float>(Vec3<F>{F::load(&rays.dx[i]), F::load(&rays.dy[i]), F::load(&rays.dz[i])}));
@@ -247,17 +245,6 @@ struct Wavefront {
       hit[k].ids.geometry.store(&rays.geometry[i]);
       hit[k].ids.primitive.store(&rays.primitive[i]);
     }
-  }
-
-  void trace_one(RayQueue& rays, std::uint32_t i) const {
-    const QueryRay<float> ray({rays.qx[i], rays.qy[i], rays.qz[i]},
-                              {float(rays.dx[i]), float(rays.dy[i]), float(rays.dz[i])});
-    Closest<float> hit{__builtin_inff()};
-    find_closest(frame.world, ray, true, hit);
-    rays.t[i] = hit.t;
-    rays.instance[i] = hit.ids.instance;
-    rays.geometry[i] = hit.ids.geometry;
-    rays.primitive[i] = hit.ids.primitive;
   }
 
   template <class T> static MaskOf<Pack<T, lanes>> first_lanes(std::uint32_t count) {
@@ -581,18 +568,6 @@ struct Wavefront {
   bool all_opaque() const {
     return !frame.any_transmits || (!frame.whitted.colored_shadows && !frame.any_masks);
   }
-  /// Closes the lanes of `open` where something stands in the way before t_far: together where the rays go
-  /// together, and one by one where they do not, as what scattered rays have found lies anywhere.
-  void find_open_lanes(const QueryRay<Query>& rays, const Query& t_far, bool opaque,
-                       MaskOf<Query>& open) const {
-    if (PacketBeam::suits(&rays, &t_far, 1, frame.world.bvhs[0].extent))
-      return find_open(frame.world, &rays, &t_far, 1, opaque, &open);
-    for (std::uint32_t asked = lane_bits(open); asked; asked &= asked - 1) {
-      const int k = __builtin_ctz(asked);
-      if (find_occluded(frame.world, lane(rays, k), true, lane(t_far, k), opaque)) set_lane(open, k, false);
-    }
-  }
-
   void tell(const QueryRay<Query>& rays, std::uint32_t asked, const Query& t_far) const {
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);

@@ -259,8 +259,7 @@ template <bool Seen> struct Work : Wavefront {
 
   [[gnu::noinline]] void cast_shadows(const QueryRay<Query>* rays, const Query* t_far, int count,
                                       MaskOf<Query>* open) const {
-    if (depth == 1) return find_open(frame.world, rays, t_far, count, all_opaque(), open);
-    for (int i = 0; i < count; ++i) find_open_lanes(rays[i], t_far[i], all_opaque(), open[i]);
+    find_open(frame.world, rays, t_far, count, all_opaque(), open);
   }
 
   /// The share of the sky above the hits that nothing hides. Directions are those of Roberts' R2 sequence
@@ -284,6 +283,7 @@ template <bool Seen> struct Work : Wavefront {
       const Vec3<double> P = lane_vector(hits.P, k), off = P - lane_vector(hits.back, k);
       const Vec3<float> start = cast<float>(P + off);
       int open = 0;
+      // One by one: of rays that go everywhere, and of which most are blocked near by, a packet takes longer.
       for (int j = 0; j < occlusion.rays; ++j) {
         const double i = double(sample) * occlusion.rays + j;
         double u = turn_u + i * 0.7548776662466927, v = turn_v + i * 0.5698402909980532;
