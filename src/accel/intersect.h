@@ -16,6 +16,7 @@
 // (1 - n u).
 
 #include "accel/world.h"
+#include "math/gather.h"
 #include "math/pack.h"
 
 namespace lambent {
@@ -52,16 +53,6 @@ template <class F> struct QueryRay {
     shear_x = p.x * scale;
     shear_y = p.y * scale;
   }
-  /// The same ray in every lane.
-  explicit QueryRay(const QueryRay<float>& one) requires(lanes_of<F> > 1)
-      : o(spread<F>(one.o)),
-        d(spread<F>(one.d)),
-        along_x(one.along_x),
-        along_y(one.along_y),
-        axis(one.axis),
-        shear_x(one.shear_x),
-        shear_y(one.shear_y),
-        scale(one.scale) {}
   /// v with its axes turned (x to y to z to x) so that z is the one the ray moves along most.
   Vec3<F> permute(const Vec3<F>& v) const {
     if (axis == 2) return v;
@@ -74,15 +65,13 @@ template <class F> struct QueryRay {
 
 /// The ray of lane k alone.
 template <class F> QueryRay<float> lane(const QueryRay<F>& rays, int k) {
-  return {{lane(rays.o.x, k), lane(rays.o.y, k), lane(rays.o.z, k)},
-          {lane(rays.d.x, k), lane(rays.d.y, k), lane(rays.d.z, k)}};
+  return {lane(rays.o, k), lane(rays.d, k)};
 }
 
 /// The ray of lane k in every lane.
 template <class Into, class F> QueryRay<Into> spread_lane(const QueryRay<F>& rays, int k) {
   QueryRay<Into> one;
-  one.o = {Into(lane(rays.o.x, k)), Into(lane(rays.o.y, k)), Into(lane(rays.o.z, k))};
-  one.d = {Into(lane(rays.d.x, k)), Into(lane(rays.d.y, k)), Into(lane(rays.d.z, k))};
+  one.o = spread<Into>(lane(rays.o, k)), one.d = spread<Into>(lane(rays.d, k));
   const bool along_x = lane(rays.along_x, k), along_y = lane(rays.along_y, k);
   one.along_x = MaskOf<Into>(along_x), one.along_y = MaskOf<Into>(along_y);
   one.axis = along_x ? 0 : along_y ? 1 : 2;

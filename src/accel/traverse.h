@@ -76,7 +76,8 @@ using NodeLanes = Pack<float, bvh_width>;
 /// One ray, and all boxes of a node at once.
 struct RayBeam {
   BoxRay<NodeLanes> ray;
-  RayBeam(const QueryRay<float>& one, float extent) : ray(QueryRay<NodeLanes>(one), extent) {}
+  RayBeam(const QueryRay<float>& one, float extent) : ray(spread_lane<NodeLanes>(one, 0), extent) {}
+  explicit RayBeam(const BoxRay<NodeLanes>& one) : ray(one) {}
   std::uint32_t meets(const BvhNode& node, float t_far, NodeLanes& near) const {
     const auto side = [&](int row) { return NodeLanes::load(node.plane[row]); };
     return lane_bits(ray.meets(side, NodeLanes(t_far), near)) & ((1u << node.children) - 1);
@@ -98,8 +99,7 @@ struct PacketBeam {
   /// and the origins within a sixteenth of the scene. A matter of speed alone.
   template <class F> static bool suits(const QueryRay<F>* rays, const F* t_far, int count, float extent) {
     const int first = __builtin_ctz(lane_bits(t_far[0] >= F(0.f)) | (1u << (lanes_of<F> - 1)));
-    const Vec3<F> o{F(lane(rays[0].o.x, first)), F(lane(rays[0].o.y, first)), F(lane(rays[0].o.z, first))},
-        d{F(lane(rays[0].d.x, first)), F(lane(rays[0].d.y, first)), F(lane(rays[0].d.z, first))};
+    const Vec3<F> o = spread<F>(lane(rays[0].o, first)), d = spread<F>(lane(rays[0].d, first));
     const F limit = F(0.996f * 0.996f) * dot(d, d), reach(extent * extent / 256);
     MaskOf<F> apart(false);
     for (int i = 0; i < count; ++i) {
@@ -226,10 +226,10 @@ void traverse(const WorldView& world, const Bvh& bvh, const Beam& beam, float& t
   }
 }
 
-/// The rays of a packet that go different ways, as boxes see them.
+/// The rays of a packet that go different ways, as boxes see them: all together, or one of them alone.
 template <class F> struct RaysApart {
-  BoxRay<F> together;
-  float numbers[9][lanes_of<F>];  ///< The same numbers, of one lane after the other.
+  const BoxRay<F>& together;
+  float numbers[9][lanes_of<F>];  ///< The same, laid out once: lanes are taken out of it at many nodes.
 
   explicit RaysApart(const BoxRay<F>& rays) : together(rays) {
     const auto lay_out = [&](const Vec3<F>& v, int first) {
@@ -237,24 +237,25 @@ template <class F> struct RaysApart {
     };
     lay_out(rays.inverse_d, 0), lay_out(rays.low, 3), lay_out(rays.high, 6);
   }
-  /// visit(i, near, met) for each child i of a node that some of `lanes` meet before t_far: met are those
-  /// that do. Where there is but one, all boxes at once.
+  RayBeam alone(int k) const {
+    const auto three = [&](int first) {
+      return Vec3<NodeLanes>{numbers[first][k], numbers[first + 1][k], numbers[first + 2][k]};
+    };
+    BoxRay<NodeLanes> ray;
+    ray.inverse_d = three(0), ray.low = three(3), ray.high = three(6);
+    return RayBeam(ray);
+  }
+  /// Calls visit(i, near, met) for each child i of a node that some of `lanes` meet before t_far: met are
+  /// those that do. Where there is but one, all boxes at once.
   template <class Visit>
   void each_met(const BvhNode& node, std::uint32_t lanes, const F& t_far, const Visit& visit) const {
     if ((lanes & (lanes - 1)) == 0) {
       const int k = __builtin_ctz(lanes);
-      const auto three = [&](int first) {
-        return Vec3<NodeLanes>{numbers[first][k], numbers[first + 1][k], numbers[first + 2][k]};
-      };
-      BoxRay<NodeLanes> ray;
-      ray.inverse_d = three(0), ray.low = three(3), ray.high = three(6);
-      const auto side = [&](int row) { return NodeLanes::load(node.plane[row]); };
       NodeLanes near;
-      std::uint32_t met = lane_bits(ray.meets(side, NodeLanes(lane(t_far, k)), near));
+      std::uint32_t met = alone(k).meets(node, lane(t_far, k), near);
       float distance[bvh_width];
       near.store(distance);
-      for (met &= (1u << node.children) - 1; met; met &= met - 1)
-        visit(__builtin_ctz(met), F(distance[__builtin_ctz(met)]), lanes);
+      for (; met; met &= met - 1) visit(__builtin_ctz(met), F(distance[__builtin_ctz(met)]), lanes);
       return;
     }
     for (int i = 0; i < int(node.children); ++i) {
@@ -265,12 +266,12 @@ template <class F> struct RaysApart {
   }
 };
 
-/// The same for the rays of one packet that go different ways, box by box: `leaf(child, lanes)`, with a bit
+/// The same for those `lanes` of one packet, whose rays go different ways: `leaf(child, lanes)`, with a bit
 /// for each ray that comes to it, may shorten t_far. A ray alone waits at each node for the answer that says
 /// where to go on; a packet, even one of rays that soon part, waits once for all of them.
 template <class F, class Leaf>
-void traverse_apart(const WorldView& world, const Bvh& bvh, const RaysApart<F>& rays, const F& t_far,
-                    const Leaf& leaf) {
+void traverse_apart(const WorldView& world, const Bvh& bvh, const RaysApart<F>& rays, std::uint32_t lanes,
+                    const F& t_far, const Leaf& leaf) {
   struct Entry {
     F near;
     TreePlace at;
@@ -278,7 +279,6 @@ void traverse_apart(const WorldView& world, const Bvh& bvh, const RaysApart<F>& 
   } stack[max_stack];
   int size = 0;
   TreePlace at{bvh.root, -1};
-  std::uint32_t lanes = lane_bits(t_far >= F(0.f));
   while (lanes) {
     const BvhNode& node = world.nodes[at.node];
     if (at.child >= 0) {
@@ -312,13 +312,6 @@ void traverse_apart(const WorldView& world, const Bvh& bvh, const RaysApart<F>& 
 struct Comers {
   std::uint32_t packets;  ///< A bit for each packet of which some ray comes.
   std::uint32_t lanes;    ///< Of a packet that goes by itself, a bit for each ray that comes; else all.
-
-  /// Whether a leaf of one kind had better be asked with one ray after the other. A sphere costs little.
-  template <class F> bool are_few(const BvhChild& leaf) const {
-    if (leaf.count == 1) return false;
-    constexpr int few = min(4, lanes_of<F> / 2);
-    return lanes_of<F> == 1 || (leaf.kind == LeafKind::triangles && __builtin_popcount(lanes) <= few);
-  }
 };
 
 /// Sends packets through a tree as one beam. False where they do not lie close together.
@@ -370,11 +363,12 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
         return F(row % 3 == 0 ? corner.x : row % 3 == 1 ? corner.y : corner.z);
       };
       F near;
-      if (!any(box_rays[i].meets(side, t_far[i], near))) continue;
+      const std::uint32_t inside = lane_bits(box_rays[i].meets(side, t_far[i], near));
+      if (inside == 0) continue;
       const auto ask = [&](const BvhChild& child, std::uint32_t lanes) {
         leaf(child, Comers{1u << i, lanes});
       };
-      traverse_apart(world, bvh, RaysApart<F>(box_rays[i]), t_far[i], ask);
+      traverse_apart(world, bvh, RaysApart<F>(box_rays[i]), inside, t_far[i], ask);
     }
   }
 }
@@ -504,20 +498,23 @@ template <int Width, class F, class See>
   ask_side_by_side<Width>(world, leaf, instance, rays, comers, load, meet, see);
 }
 
-/// Asks the primitives of a leaf of one kind.
+/// Asks the primitives of a leaf of one kind. Where few rays come, triangles with one after the other;
+/// spheres only with a ray that has no packet, as they cost a packet little.
 template <class F, class See>
 void ask_leaf(const WorldView& world, const BvhChild& leaf, std::int32_t instance, const QueryRay<F>* rays,
               const Comers& comers, const See& see) {
-  constexpr int wide = native_float_lanes < 8 ? 4 : 8;
-  const bool few = comers.are_few<F>(leaf), many_primitives = leaf.count > 4;
+  constexpr int wide = native_float_lanes < 8 ? 4 : 8, few = max(1, min(4, lanes_of<F> / 2));
   if (leaf.kind == LeafKind::triangles) {
-    if (!few) ask_triangles(world, leaf, instance, rays, comers.packets, see);
-    else if (many_primitives) ask_triangles_alone<wide>(world, leaf, instance, rays, comers, see);
-    else ask_triangles_alone<4>(world, leaf, instance, rays, comers, see);
+    if (leaf.count == 1 || __builtin_popcount(comers.lanes) > few)
+      ask_triangles(world, leaf, instance, rays, comers.packets, see);
+    else if (leaf.count <= 4) ask_triangles_alone<4>(world, leaf, instance, rays, comers, see);
+    else ask_triangles_alone<wide>(world, leaf, instance, rays, comers, see);
+  } else if constexpr (lanes_of<F> > 1) {
+    ask_spheres(world, leaf, instance, rays, comers.packets, see);
   } else {
-    if (!few) ask_spheres(world, leaf, instance, rays, comers.packets, see);
-    else if (many_primitives) ask_spheres_alone<wide>(world, leaf, instance, rays, comers, see);
-    else ask_spheres_alone<4>(world, leaf, instance, rays, comers, see);
+    if (leaf.count == 1) ask_spheres(world, leaf, instance, rays, comers.packets, see);
+    else if (leaf.count <= 4) ask_spheres_alone<4>(world, leaf, instance, rays, comers, see);
+    else ask_spheres_alone<wide>(world, leaf, instance, rays, comers, see);
   }
 }
 

@@ -276,7 +276,7 @@ template <bool Seen> struct Work : Wavefront {
       if (rays.density[ray] > 0) {
         searched = emitter_density(frame, origin_of_light(ray), normal_at_origin(ray),
                                    {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]},
-                                   lane_vector(hits.P, k), lane_vector(hits.G, k), direction_of(ray));
+                                   lane(hits.P, k), lane(hits.G, k), direction_of(ray));
         weight = weight_against(rays.density[ray], searched);
       }
       meet(ray, lane_color(emission, k), searched, weight, material.light >= 0 ? material.light : surfaces());
@@ -309,8 +309,8 @@ template <bool Seen> struct Work : Wavefront {
     const Draw point = draw(at, light_point);
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);
-      const EmitterSample e = light_at(lane_vector(hits.P, k), lane_vector(facing, k), lane(pick, k),
-                                       lane(point.x, k), lane(point.y, k));
+      const EmitterSample e =
+          light_at(lane(hits.P, k), lane(facing, k), lane(pick, k), lane(point.x, k), lane(point.y, k));
       L[0][k] = e.L.x, L[1][k] = e.L.y, L[2][k] = e.L.z;
       for (int c = 0; c < color_channels; ++c) brings[c][k] = e.radiance_over_density[c];
       density[k] = e.density, clear[k] = e.clear, distance[k] = e.r, out.source[k] = e.light;
@@ -379,7 +379,7 @@ template <bool Seen> struct Work : Wavefront {
         if (frame.witness)
           frame.witness->search(
               frame.witness->self,
-              {scratch.rays.number[at.ray[k]], search.source[k], lane_vector(to_light, k), lane(search.r, k),
+              {scratch.rays.number[at.ray[k]], search.source[k], lane(to_light, k), lane(search.r, k),
                lane_color(search.brings, k), lane(found, k), lane_color(f.value, k), lane(f.density, k),
                lane(weight, k), bool(lane_bits(lit) >> k & 1), reached, lane(share, k), one});
         if (reached && task.layer_sums)
@@ -432,7 +432,7 @@ template <bool Seen> struct Work : Wavefront {
     const std::uint32_t ray = at.ray[k];
     RayQueue& to = scratch.next_rays;
     const std::uint32_t i = make_ray();
-    const Vec3<double> P = lane_vector(hits.P, k), start = lane_vector(hits.back, k), d = direction_of(ray);
+    const Vec3<double> P = lane(hits.P, k), start = lane(hits.back, k), d = direction_of(ray);
     set_ray(to, i, P, cast<float>(start), d);
     to.R[i] = lane(hits.R, k);
     for (int c = 0; c < color_channels; ++c) to.weight[c][i] = rays.weight[c][ray];
@@ -504,7 +504,7 @@ template <bool Seen> struct Work : Wavefront {
                    lane_bits(next.through) >> k & 1 ? Way::refraction : Way::reflection,
                    lane_color(next.weight, k), lane(survival, k));
       }
-      const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(facing, k);
+      const Vec3<double> P = lane(hits.P, k), N = lane(facing, k);
       to.from_x[i] = P.x, to.from_y[i] = P.y, to.from_z[i] = P.z;
       to.from_nx[i] = N.x, to.from_ny[i] = N.y, to.from_nz[i] = N.z;
       if (frame.cones) {
@@ -547,11 +547,11 @@ template <bool Seen> struct Work : Wavefront {
            rays.geometry[ray],
            rays.primitive[ray],
            hits.material[k],
-           lane_vector(hits.P, k),
-           lane_vector(hits.N, k),
-           lane_vector(hits.G, k),
-           lane_vector(hits.V, k),
-           lane_vector(hits.front, k),
+           lane(hits.P, k),
+           lane(hits.N, k),
+           lane(hits.G, k),
+           lane(hits.V, k),
+           lane(hits.front, k),
            lane(hits.t, k),
            lane(hits.R, k),
            bool(lane_bits(hits.outside) >> k & 1),

@@ -430,11 +430,10 @@ struct Wavefront {
       }
       const std::uint32_t ray = at.ray[k];
       const double side = lane_bits(hits.outside) >> k & 1 ? 1.0 : -1.0;
-      const Vec3<double> d = -lane_vector(hits.V, k);
+      const Vec3<double> d = -lane(hits.V, k);
       const double width = frame.cones ? rays.width[ray] + rays.spread[ray] * lane(hits.t, k) : 0;
       const HitIds<std::int32_t> ids{rays.instance[ray], rays.geometry[ray], rays.primitive[ray]};
-      const Vec3<double> P = lane_vector(hits.P, k), N = side * lane_vector(hits.N, k),
-                         G = side * lane_vector(hits.G, k);
+      const Vec3<double> P = lane(hits.P, k), N = side * lane(hits.N, k), G = side * lane(hits.G, k);
       paints[k] = as_given ? paint_as_given(frame, ids, hits.material[k], P, N, G, d, width)
                            : paint(frame, ids, hits.material[k], P, N, G, d, width);
       paints[k].N = side * paints[k].N;
@@ -568,6 +567,7 @@ struct Wavefront {
   bool all_opaque() const {
     return !frame.any_transmits || (!frame.whitted.colored_shadows && !frame.any_masks);
   }
+
   void tell(const QueryRay<Query>& rays, std::uint32_t asked, const Query& t_far) const {
     for (; asked; asked &= asked - 1) {
       const int k = __builtin_ctz(asked);
@@ -634,7 +634,7 @@ struct Wavefront {
     const auto curvature_there = [&] {
       return coordinates_at(frame.world,
                             {before.instance[parent], before.geometry[parent], before.primitive[parent]},
-                            lane_vector(hits.P, k))
+                            lane(hits.P, k))
           .curvature;
     };
     const double curvature = hits.painted ? hits.painted->curvature[k] : curvature_there();
@@ -679,9 +679,6 @@ struct Wavefront {
     Rgb result;
     for (int c = 0; c < color_channels; ++c) result[c] = lane(color[c], k);
     return result;
-  }
-  static Vec3<double> lane_vector(const Vec3<F>& v, int k) {
-    return {lane(v.x, k), lane(v.y, k), lane(v.z, k)};
   }
 
   // ---- for those who look closer
@@ -734,7 +731,7 @@ struct Wavefront {
       first.material = std::int32_t(hits.material[k]);
       first.primitive = rays.primitive[ray];
       first.R = float(lane(hits.R, k));
-      const Vec3<double> P = lane_vector(hits.P, k), N = lane_vector(hits.N, k);
+      const Vec3<double> P = lane(hits.P, k), N = lane(hits.N, k);
       const Geometry& geometry = frame.world.geometries[rays.geometry[ray]];
       Vec2<double> uv{};
       if (geometry.uvs)

@@ -275,12 +275,12 @@ template <bool Seen> struct Work : Wavefront {
           std::uint64_t(sample_at(task.first_sample + int(number % std::uint64_t(samples_per_pixel()))));
       const std::uint64_t hash = hashed(std::uint64_t(std::uint32_t(pixel.x)) << 32 | std::uint32_t(pixel.y));
       const double turn_u = double(hash >> 32) * 0x1p-32, turn_v = double(hash & 0xffffffff) * 0x1p-32;
-      const Vec3<double> N = lane_vector(hits.N, k), G = lane_vector(hits.G, k);
+      const Vec3<double> N = lane(hits.N, k), G = lane(hits.G, k);
       Vec3<double> a, b;
       axes_across(N, a, b);
       // From the surface itself, not from the smooth one that it stands for: lifted, a point near the floor
       // may lie below it.
-      const Vec3<double> P = lane_vector(hits.P, k), off = P - lane_vector(hits.back, k);
+      const Vec3<double> P = lane(hits.P, k), off = P - lane(hits.back, k);
       const Vec3<float> start = cast<float>(P + off);
       int open = 0;
       // One by one: of rays that go everywhere, and of which most are blocked near by, a packet takes longer.
@@ -470,11 +470,11 @@ template <bool Seen> struct Work : Wavefront {
                           rays.geometry[ray],
                           rays.primitive[ray],
                           hits.material[k],
-                          lane_vector(hits.P, k),
-                          lane_vector(hits.N, k),
-                          lane_vector(hits.G, k),
-                          lane_vector(hits.V, k),
-                          lane_vector(hits.front, k),
+                          lane(hits.P, k),
+                          lane(hits.N, k),
+                          lane(hits.G, k),
+                          lane(hits.V, k),
+                          lane(hits.front, k),
                           lane(hits.t, k),
                           lane(hits.R, k),
                           bool(lane_bits(hits.outside) >> k & 1),
@@ -504,10 +504,8 @@ template <bool Seen> struct Work : Wavefront {
       frame.witness->light(
           frame.witness->self,
           {scratch.rays.number[at.ray[k]], p, bool(open >> k & 1), frame.whitted.shadows && (asked >> k & 1),
-           lane_vector(light.L, k), lane(light.r, k), lane_color(light.I, k), lane(faded, k),
-           lane_color(share, k), lane_color(arriving, k),
-           cast<double>(Vec3<float>{lane(shadow.d.x, k), lane(shadow.d.y, k), lane(shadow.d.z, k)}),
-           double(lane(t_far, k))});
+           lane(light.L, k), lane(light.r, k), lane_color(light.I, k), lane(faded, k), lane_color(share, k),
+           lane_color(arriving, k), cast<double>(lane(shadow.d, k)), double(lane(t_far, k))});
   }
   void tell_colors(const Lanes& at, const C& color) const {
     for (int k = 0; k < at.count; ++k)

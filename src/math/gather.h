@@ -15,6 +15,11 @@ template <class To, class F> Vec3<With<F, To>> number_cast(const Vec3<F>& v) {
   return {number_cast<To>(v.x), number_cast<To>(v.y), number_cast<To>(v.z)};
 }
 
+/// The vector of lane k alone.
+template <class F> auto lane(const Vec3<F>& v, int k) {
+  return Vec3<decltype(lane(v.x, k))>{lane(v.x, k), lane(v.y, k), lane(v.z, k)};
+}
+
 /// The points of two packets in one that is twice as wide.
 template <class T, int W>
 Vec3<Pack<T, 2 * W>> side_by_side(const Vec3<Pack<T, W>>& lower, const Vec3<Pack<T, W>>& upper) {
