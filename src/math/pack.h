@@ -6,11 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
-#include "math/number.h"
+#include "math/mask.h"
 
 // All that a function does to a packet in one piece of code, so that it stays in registers.
 #define LAMBENT_FLATTEN __attribute__((flatten))
@@ -18,118 +14,10 @@
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
-// The widest registers of this translation unit's instruction set, in lanes of float.
-#if defined(__AVX512F__)
-inline constexpr int native_float_lanes = 16;
-#elif defined(__AVX__)
-inline constexpr int native_float_lanes = 8;
-#else
-inline constexpr int native_float_lanes = 4;
-#endif
-
-template <class T, int W> struct RawPack { typedef T type __attribute__((vector_size(sizeof(T) * W))); };
-template <int Bytes> struct IntOfSize;
-template <> struct IntOfSize<4> { using type = std::int32_t; };
-template <> struct IntOfSize<8> { using type = std::int64_t; };
-
-/// How W lanes of T lie in registers: `parts` of them, one or two, with `part_lanes` each. (g++ 12 would take
-/// a vector that is wider than the registers apart lane by lane, and it keeps an array of them in memory.)
-template <class T, int W> struct Registers {
-  static constexpr int native = native_float_lanes * 4 / int(sizeof(T));
-  static constexpr int part_lanes = W < native ? W : native, parts = W / part_lanes;
-  static_assert(parts * part_lanes == W && parts <= 2);
-  using Raw = typename RawPack<T, part_lanes>::type;
-};
-template <class Raw, int N> struct Parts { Raw p0; };
-template <class Raw> struct Parts<Raw, 2> { Raw p0, p1; };
-
-/// Operations part by part: `f(a's part, b's part ...)`.
-template <class Result, class Function, class... P> Result by_parts(const Function& f, const P&... p) {
-  Result result;
-  result.p0 = f(p.p0...);
-  if constexpr (Result::In::parts == 2) result.p1 = f(p.p1...);
-  return result;
-}
-
-/// One truth for each of W lanes: all bits of an Int set, or none. Int is as wide as the numbers that were
-/// compared.
-template <class Int, int W> struct Mask : Parts<typename Registers<Int, W>::Raw, Registers<Int, W>::parts> {
-  using In = Registers<Int, W>;
-  using Raw = typename In::Raw;
-  Mask() = default;
-  explicit Mask(bool all_lanes) {
-    this->p0 = Raw{} - Int(all_lanes);
-    if constexpr (In::parts == 2) this->p1 = this->p0;
-  }
-  friend Mask operator&(const Mask& a, const Mask& b) {
-    return by_parts<Mask>([](Raw x, Raw y) { return x & y; }, a, b);
-  }
-  friend Mask operator|(const Mask& a, const Mask& b) {
-    return by_parts<Mask>([](Raw x, Raw y) { return x | y; }, a, b);
-  }
-  friend Mask operator!(const Mask& a) {
-    return by_parts<Mask>([](Raw x) { return ~x; }, a);
-  }
-};
-
-/// A bit for each lane of a register, the first lane's lowest.
-template <int Lanes, class Raw> std::uint32_t register_bits(const Raw& r) {
-  constexpr std::size_t size = sizeof(Raw), number = size / Lanes;
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  if constexpr (size == 64 && number == 4) return _mm512_movepi32_mask(__m512i(r));
-  else if constexpr (size == 64) return _mm512_movepi64_mask(__m512i(r));
-  else
-#endif
-#if defined(__AVX__)
-      if constexpr (size == 32 && number == 4)
-    return std::uint32_t(_mm256_movemask_ps(__m256(r)));
-  else if constexpr (size == 32) return std::uint32_t(_mm256_movemask_pd(__m256d(r)));
-  else
-#endif
-#if defined(__x86_64__)
-      if constexpr (size == 16 && number == 4)
-    return std::uint32_t(_mm_movemask_ps(__m128(r)));
-  else if constexpr (size == 16) return std::uint32_t(_mm_movemask_pd(__m128d(r)));
-  else
-#endif
-  {
-    std::uint32_t bits = 0;
-    for (int k = 0; k < Lanes; ++k) bits |= std::uint32_t(r[k] != 0) << k;
-    return bits;
-  }
-}
-template <class Int, int W> std::uint32_t lane_bits(const Mask<Int, W>& m) {
-  using In = typename Mask<Int, W>::In;
-  std::uint32_t bits = register_bits<In::part_lanes>(m.p0);
-  if constexpr (In::parts == 2) bits |= register_bits<In::part_lanes>(m.p1) << In::part_lanes;
-  return bits;
-}
-/// The reverse: the lanes whose bits are set.
-template <class M> M mask_of_bits(std::uint32_t bits) {
-  using In = typename M::In;
-  using Raw = typename M::Raw;
-  using Int = decltype(Raw{}[0] + 0);
-  const auto part = [bits]<std::size_t... k>(int first, std::index_sequence<k...>) {
-    return Raw(((Raw{} + Int(bits >> first)) & Raw{Int(Int(1) << k)...}) != Raw{});
-  };
-  M result;
-  result.p0 = part(0, std::make_index_sequence<In::part_lanes>());
-  if constexpr (In::parts == 2) result.p1 = part(In::part_lanes, std::make_index_sequence<In::part_lanes>());
-  return result;
-}
-template <int W> inline constexpr std::uint32_t all_lane_bits = W == 32 ? ~0u : (1u << W) - 1;
-template <class Int, int W> bool any(const Mask<Int, W>& m) {
-  using In = typename Mask<Int, W>::In;
-  if constexpr (In::parts == 2) return register_bits<In::part_lanes>(m.p0 | m.p1) != 0;
-  else return register_bits<In::part_lanes>(m.p0) != 0;
-}
-template <class Int, int W> bool all(const Mask<Int, W>& m) { return lane_bits(m) == all_lane_bits<W>; }
-
 template <class T, int W> struct Pack : Parts<typename Registers<T, W>::Raw, Registers<T, W>::parts> {
   using In = Registers<T, W>;
   using Raw = typename In::Raw;
   using Truth = Mask<typename IntOfSize<sizeof(T)>::type, W>;
-  using RawTruth = typename Truth::Raw;
   Pack() = default;
   Pack(T all_lanes) {
     this->p0 = all_lanes - Raw{};
@@ -161,28 +49,16 @@ template <class T, int W> struct Pack : Parts<typename Registers<T, W>::Raw, Reg
   friend Pack operator-(const Pack& a) {
     return by_parts<Pack>([](Raw x) { return -x; }, a);
   }
-  friend Truth operator<(const Pack& a, const Pack& b) {
-    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x < y); }, a, b);
-  }
-  friend Truth operator>(const Pack& a, const Pack& b) {
-    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x > y); }, a, b);
-  }
-  friend Truth operator<=(const Pack& a, const Pack& b) {
-    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x <= y); }, a, b);
-  }
-  friend Truth operator>=(const Pack& a, const Pack& b) {
-    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x >= y); }, a, b);
-  }
-  friend Truth operator==(const Pack& a, const Pack& b) {
-    return by_parts<Truth>([](Raw x, Raw y) { return RawTruth(x == y); }, a, b);
-  }
+  friend Truth operator<(const Pack& a, const Pack& b) { return compared_by_parts<Order::less>(a, b); }
+  friend Truth operator>(const Pack& a, const Pack& b) { return compared_by_parts<Order::greater>(a, b); }
+  friend Truth operator<=(const Pack& a, const Pack& b) { return compared_by_parts<Order::at_most>(a, b); }
+  friend Truth operator>=(const Pack& a, const Pack& b) { return compared_by_parts<Order::at_least>(a, b); }
+  friend Truth operator==(const Pack& a, const Pack& b) { return compared_by_parts<Order::equal>(a, b); }
 };
 
 template <class T, int W>
 Pack<T, W> select(const typename Pack<T, W>::Truth& m, const Pack<T, W>& a, const Pack<T, W>& b) {
-  using P = Pack<T, W>;
-  return by_parts<P>([](typename P::RawTruth m, typename P::Raw x, typename P::Raw y) { return m ? x : y; },
-                     m, a, b);
+  return select_by_parts<Pack<T, W>>(m, a, b);
 }
 // Written out, so that the compilers see the one instruction that each of them is.
 template <class T, int W> Pack<T, W> max(const Pack<T, W>& a, const Pack<T, W>& b) {
@@ -195,8 +71,8 @@ template <class T, int W> Pack<T, W> min(const Pack<T, W>& a, const Pack<T, W>& 
 }
 template <class T, int W> Pack<T, W> abs(const Pack<T, W>& a) {
   using Raw = typename Pack<T, W>::Raw;
-  using Bits = typename Pack<T, W>::RawTruth;
   using Int = typename IntOfSize<sizeof(T)>::type;
+  using Bits = typename Registers<Int, W>::Raw;
   constexpr Int all_but_sign = Int(~(std::uint64_t(1) << (8 * sizeof(T) - 1)));
   return by_parts<Pack<T, W>>([](Raw x) { return Raw(Bits(x) & (all_but_sign - Bits{})); }, a);
 }
@@ -247,9 +123,8 @@ template <class T, int W> void set_lane(Pack<T, W>& a, int i, T value) {
   a = Pack<T, W>::load(values);
 }
 template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) {
-  auto numbers = std::bit_cast<Pack<Int, W>>(a);
-  set_lane(numbers, i, value ? Int(-1) : Int(0));
-  a = std::bit_cast<Mask<Int, W>>(numbers);
+  const std::uint32_t bit = 1u << i, others = lane_bits(a) & ~bit;
+  a = mask_of_bits<Mask<Int, W>>(value ? others | bit : others);
 }
 
 /// The least and the greatest lane.
@@ -338,8 +213,12 @@ template <class To, class T, int W> Pack<To, W> number_cast(const Pack<T, W>& a)
 
 /// The same truths for numbers of another size.
 template <class To, class From, int W> Mask<To, W> mask_cast(const Mask<From, W>& m) {
-  const Pack<From, W> from = std::bit_cast<Pack<From, W>>(m);
-  return std::bit_cast<Mask<To, W>>(number_cast<To>(from));
+  if constexpr (masks_are_bits) {
+    return mask_of_bits<Mask<To, W>>(lane_bits(m));
+  } else {  // no rounding, -1 and 0 are the same in all of them
+    const auto numbers = number_cast<To>(std::bit_cast<Pack<From, W>>(m));
+    return std::bit_cast<Mask<To, W>>(numbers);
+  }
 }
 template <class To> bool mask_cast(bool m) { return m; }
 
