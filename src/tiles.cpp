@@ -14,13 +14,19 @@
 namespace lambent {
 namespace {
 
-/// The pixels of a tile in squares of 4 by 4: the rays of a packet then lie close together.
+/// The pixels of a tile in squares of 4 by 4, and four of these in squares of 8 by 8: so the rays of a packet
+/// lie close together, and those of a beam.
 void list_pixels(int x0, int y0, int x1, int y1, std::vector<Pixel>& pixels) {
-  constexpr int square = 4;
-  for (int y = y0; y < y1; y += square)
-    for (int x = x0; x < x1; x += square)
-      for (int j = y; j < std::min(y + square, y1); ++j)
-        for (int i = x; i < std::min(x + square, x1); ++i) pixels.push_back({i, j});
+  const auto in_squares = [](int size, int left, int top, int right, int bottom, const auto& visit) {
+    for (int y = top; y < bottom; y += size)
+      for (int x = left; x < right; x += size)
+        visit(x, y, std::min(x + size, right), std::min(y + size, bottom));
+  };
+  in_squares(8, x0, y0, x1, y1, [&](int left, int top, int right, int bottom) {
+    in_squares(4, left, top, right, bottom, [&](int l, int t, int r, int b) {
+      in_squares(1, l, t, r, b, [&](int x, int y, int, int) { pixels.push_back({x, y}); });
+    });
+  });
 }
 
 /// The tiles of a film, row by row.
