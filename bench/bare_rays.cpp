@@ -69,7 +69,7 @@ struct Times {
 /// What the clock of a frame covers: rays, shading, film, picture.
 TileRun render_frame(const Scene& scene, const Frame& frame, const Kernel& kernel, int threads, int tile_size,
                      const std::function<bool(double)>& progress = {}) {
-  Film film(scene.image);
+  Film film(scene.image, nullptr, threads);
   const TileRun run = render_tiles(frame, kernel, film, {threads, tile_size, progress});
   const Image image = develop(std::move(film), scene.image);
   if (image.width != scene.image.width) throw Failure("the picture has another size than was asked for");

@@ -78,7 +78,7 @@ RenderResult render(const ScenePtr& scene, const RenderOptions& options) {
   stats.seconds.build = clock.lap();
   std::optional<LayerBook> book;
   if (scene->film.layers) book.emplace(*scene, frame.layers, frame.samples);
-  Film film(scene->image, book ? &*book : nullptr);
+  Film film(scene->image, book ? &*book : nullptr, threads);
   if (options.guides) film.guides.resize(std::size_t(film.width) * std::size_t(film.height));
   stats.bytes.film = film.values.size() * sizeof(float) + film.guides.size() * sizeof(GuideSums);
   const double pixels = double(film.width) * film.height;

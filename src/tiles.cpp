@@ -58,6 +58,30 @@ struct Worker {
   std::vector<FirstHit> first_hits;
   PixelHits hits;
   LayerBook::Work layer_work;
+  std::vector<ApportionRoom> apportion_room;
+  std::vector<float*> to_pixels;
+  std::vector<std::uint8_t> left;
+
+  /// Room for `columns` columns over `count` pixels, zero. Returns their stride.
+  std::size_t clear_layer_sums(std::size_t columns, std::size_t count) {
+    // Kernels read a packet beyond the last pixel. And the columns of 1024 pixels, a whole tile, would all
+    // meet in the same lines of the cache if nothing were between them.
+    const std::size_t stride = (count + 15) / 16 * 16 + 16;
+    layer_sums.assign(columns * stride, 0);
+    return stride;
+  }
+  void give_layer_sums(PixelTask& task, std::size_t columns) {
+    task.layer_sums_stride = clear_layer_sums(columns, task.count);
+    task.layer_sums = layer_sums.data();
+  }
+  /// The layers of to_pixels, from layer_sums, but for those that are then `left`.
+  void apportion(const Kernel& kernel, const LayerBook& book, std::size_t stride, int samples) {
+    const int layers = book.plan().count();
+    left.resize(to_pixels.size());
+    apportion_room.resize(std::size_t(layers) * 2);
+    kernel.apportion_layers({layer_sums.data(), stride, layers, samples, std::uint32_t(to_pixels.size()),
+                             to_pixels.data(), left.data(), apportion_room.data()});
+  }
 };
 
 /// Pixels that are rendered at once where something is noted of each of their samples: so many that the notes
@@ -130,6 +154,31 @@ class Crew {
   TileRun& run_;
 };
 
+/// The layers of the pixels of a task that is done; their colours must be in the film.
+void write_layers(const Kernel& kernel, const PixelTask& task, const std::vector<double>& distances,
+                  Film& film, Worker& worker) {
+  const LayerBook& book = *film.layers;
+  const int samples = int(distances.size());
+  const std::size_t stride = task.layer_sums_stride;
+  worker.to_pixels.clear();
+  for (std::uint32_t p = 0; p < task.count; ++p)
+    worker.to_pixels.push_back(film.pixel(task.pixels[p].x, task.pixels[p].y));
+  worker.apportion(kernel, book, stride, samples);
+  for (std::uint32_t p = 0; p < task.count; ++p) {
+    if (worker.left[p])
+      book.write_layers(task.layer_sums + p, stride, samples, worker.layer_work, worker.to_pixels[p]);
+    const FirstHit* hits = task.first_hits + std::size_t(p) * distances.size();
+    if (samples == 1) {
+      book.write_data(task.layer_sums + p, stride, hits[0], worker.to_pixels[p]);
+      continue;
+    }
+    worker.hits.clear();
+    for (std::size_t s = 0; s < distances.size(); ++s) worker.hits.add(hits[s], distances[s]);
+    book.write_data(task.layer_sums + p, stride, samples, worker.hits, worker.layer_work,
+                    worker.to_pixels[p]);
+  }
+}
+
 }  // namespace
 
 double steady_seconds() {
@@ -145,6 +194,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   const Tiles tiles{film, options.tile_size};
   const std::size_t columns = film.layers ? std::size_t(frame.layers.columns()) : 0;
   const std::vector<double> distances = distances_from_centre(frame);
+  const Mean mean(frame.samples);
   const bool noisy = frame.tracing == Tracing::path;
   // Added up tile by tile, so that the noise does not depend on who was first.
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
@@ -156,10 +206,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
       const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
       worker.sums.assign(count * color_channels, 0);
       PixelTask task{pixels, std::uint32_t(count), 0, frame.samples, worker.sums.data(), nullptr};
-      if (film.layers) {
-        worker.layer_sums.assign(count * columns, 0);
-        task.layer_sums = worker.layer_sums.data();
-      }
+      if (film.layers) worker.give_layer_sums(task, columns);
       if (film.wants_hits()) {
         worker.first_hits.resize(count * distances.size());
         task.first_hits = worker.first_hits.data();
@@ -173,18 +220,12 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
         if (noisy)
           noise[std::size_t(i)].add(&worker.sums[p * color_channels], worker.squares[p], frame.samples);
         float* to = film.pixel(pixels[p].x, pixels[p].y);
-        for (int c = 0; c < color_channels; ++c)
-          to[c] = float(worker.sums[p * color_channels + c] / frame.samples);
+        for (int c = 0; c < color_channels; ++c) to[c] = float(mean.of(worker.sums[p * color_channels + c]));
         if (!film.guides.empty())
           film.guides[film.index(pixels[p].x, pixels[p].y)].add(&worker.first_hits[p * distances.size()],
                                                                 distances.size());
-        if (!film.layers) continue;
-        worker.hits.clear();
-        for (std::size_t s = 0; s < distances.size(); ++s)
-          worker.hits.add(worker.first_hits[p * distances.size() + s], distances[s]);
-        film.layers->write(&worker.layer_sums[p * columns], frame.samples, worker.hits, worker.layer_work,
-                           to);
       }
+      if (film.layers) write_layers(kernel, task, distances, film, worker);
     }
   });
   NoiseSum sum;
@@ -228,6 +269,36 @@ class Goes {
     });
   }
 
+  /// Fills the film with the means, row by row.
+  void develop(TileRun& run) {
+    TileOptions quiet = options_;
+    quiet.progress = nullptr;
+    const auto width = std::size_t(film_.width);
+    Crew(quiet, run).share(film_.height, 0, 1, [&](std::int64_t y, Worker& worker) {
+      worker.to_pixels.clear();
+      for (int x = 0; x < film_.width; ++x) {
+        float* to = film_.pixel(x, int(y));
+        const Rgb mean = samples.mean(samples.index(x, int(y)));
+        for (int c = 0; c < color_channels; ++c) to[c] = float(mean[c]);
+        worker.to_pixels.push_back(to);
+      }
+      if (!film_.layers) return;
+      const LayerBook& book = *film_.layers;
+      const std::size_t stride = worker.clear_layer_sums(columns_, width), first = std::size_t(y) * width;
+      for (std::size_t x = 0; x < width; ++x)
+        for (std::size_t c = 0; c < columns_; ++c)
+          worker.layer_sums[c * stride + x] = samples.layer_sums(first + x)[c] / samples.samples(first + x);
+      worker.apportion(kernel_, book, stride, 1);
+      for (std::size_t x = 0; x < width; ++x) {
+        const double* sums = samples.layer_sums(first + x);
+        const int count = samples.samples(first + x);
+        float* to = worker.to_pixels[x];
+        if (worker.left[x]) book.write_layers(sums, 1, count, worker.layer_work, to);
+        book.write_data(sums, 1, count, samples.hits(first + x), worker.layer_work, to);
+      }
+    });
+  }
+
  private:
   const Kernel& kernel_;
   Film& film_;
@@ -265,11 +336,12 @@ class Goes {
       task.first_hits = worker.first_hits.data();
     }
     if (film_.layers) {
-      worker.layer_sums.resize(count * columns_);
-      task.layer_sums = worker.layer_sums.data();
-      for (std::size_t p = 0; p < count; ++p)
-        std::copy_n(samples.layer_sums(samples.index(pixels[p].x, pixels[p].y)), columns_,
-                    &worker.layer_sums[p * columns_]);
+      worker.give_layer_sums(task, columns_);
+      for (std::size_t p = 0; p < count; ++p) {
+        const double* from = samples.layer_sums(samples.index(pixels[p].x, pixels[p].y));
+        for (std::size_t c = 0; c < columns_; ++c)
+          worker.layer_sums[c * task.layer_sums_stride + p] = from[c];
+      }
     }
     kernel_.render(frame, task, worker.scratch, worker.counts);
     if (!film_.guides.empty())
@@ -278,7 +350,8 @@ class Goes {
     if (film_.layers)
       for (std::size_t p = 0; p < count; ++p) {
         const std::size_t index = samples.index(pixels[p].x, pixels[p].y);
-        std::copy_n(&worker.layer_sums[p * columns_], columns_, samples.layer_sums(index));
+        double* to = samples.layer_sums(index);
+        for (std::size_t c = 0; c < columns_; ++c) to[c] = worker.layer_sums[c * task.layer_sums_stride + p];
         for (std::size_t s = 0; s < taken; ++s)
           samples.hits(index).add(worker.first_hits[p * taken + s], distances_[std::size_t(first) + s]);
       }
@@ -308,7 +381,7 @@ TileRun render_adaptively(const Frame& frame, const Kernel& kernel, const ImageS
     end = std::min(end * 4, max);
     progress = progress_then;
   }
-  goes.samples.develop(film);
+  goes.develop(run);
   if (sample_counts)
     for (int y = 0; y < film.height; ++y)
       for (int x = 0; x < film.width; ++x) sample_counts->push_back(goes.samples.at(x, y).samples);
@@ -327,7 +400,7 @@ TileRun render_slices(Exposure& exposure, const Kernel& kernel, const ImageSetti
     run.samples = frame.samples;
     if (frame.tracing == Tracing::path) run.noise = goes.samples.noise();
   }
-  goes.samples.develop(film);
+  goes.develop(run);
   return run;
 }
 
@@ -392,7 +465,7 @@ TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSetting
     first = end;
     end = next;
   }
-  goes.samples.develop(film);
+  goes.develop(run);
   return run;
 }
 

@@ -67,14 +67,10 @@ double AdaptiveFilm::noise() const {
   return sum.noise();
 }
 
-void AdaptiveFilm::develop(Film& film) const {
-  LayerBook::Work work;
-  for (std::size_t p = 0; p < pixels_.size(); ++p) {
-    float* to = &film.values[p * std::size_t(film.channels)];
-    const int samples = std::max(1, pixels_[p].samples);
-    for (int c = 0; c < color_channels; ++c) to[c] = float(pixels_[p].sum[c] / samples);
-    if (film.layers) film.layers->write(layer_sums(p), samples, hits_[p], work, to);
-  }
+Rgb AdaptiveFilm::mean(std::size_t pixel) const {
+  Rgb result;
+  for (int c = 0; c < color_channels; ++c) result[c] = pixels_[pixel].sum[c] / samples(pixel);
+  return result;
 }
 
 }  // namespace lambent

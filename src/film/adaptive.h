@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "film/film.h"
@@ -38,6 +39,7 @@ class AdaptiveFilm {
   double* layer_sums(std::size_t pixel) { return &layer_sums_[pixel * columns_]; }
   const double* layer_sums(std::size_t pixel) const { return &layer_sums_[pixel * columns_]; }
   PixelHits& hits(std::size_t pixel) { return hits_[pixel]; }
+  const PixelHits& hits(std::size_t pixel) const { return hits_[pixel]; }
 
   /// Whether n samples of this pixel, which it has, may be off by more than the settings' error: an edge of
   /// height D is known to about D / n^(3/4) by n well-spread samples, and D is looked for in the pixel
@@ -47,8 +49,10 @@ class AdaptiveFilm {
   /// As noise_of.
   double noise() const;
 
-  /// The means.
-  void develop(Film& film) const;
+  /// The mean of a pixel's samples; black where it has none yet.
+  Rgb mean(std::size_t pixel) const;
+  /// How many samples it counts, 1 at least.
+  int samples(std::size_t pixel) const { return std::max(1, pixels_[pixel].samples); }
 
  private:
   double height_of_edge(int x, int y) const;

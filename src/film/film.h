@@ -14,6 +14,17 @@ struct GuideSums {
   void add(const FirstHit* hits, std::size_t count);
 };
 
+/// Divides sums by a number of samples; where that is a power of two by a multiplication, with the same bits.
+class Mean {
+ public:
+  explicit Mean(int samples);
+  double of(double sum) const { return is_exact_ ? sum * share_ : sum / samples_; }
+
+ private:
+  double samples_, share_;
+  bool is_exact_;
+};
+
 /// What the rays bring: a colour for each pixel, row 0 on top, and the layers' channels where there are
 /// layers. With Pattern::corners there is one row and one column more than in the picture.
 struct Film {
@@ -24,7 +35,8 @@ struct Film {
   std::vector<GuideSums> guides;  ///< Of each pixel, or empty: not asked for.
 
   Film() = default;
-  explicit Film(const ImageSettings& settings, const LayerBook* layers = nullptr);
+  /// `threads`: how many may be busy with its memory.
+  explicit Film(const ImageSettings& settings, const LayerBook* layers = nullptr, int threads = 1);
   std::size_t index(int x, int y) const { return std::size_t(y) * std::size_t(width) + std::size_t(x); }
   /// Whether what eye rays meet first is noted.
   bool wants_hits() const { return layers || !guides.empty(); }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "film/apportion.h"
 #include "scene/standing_lights.h"
 
 namespace lambent {
@@ -129,35 +130,9 @@ void apportion_signed(const double* layers, int count, float total, float* float
 void apportion(const double* layers, int count, float total, float* floats) {
   if (std::isfinite(total) && std::any_of(layers, layers + count, [](double one) { return one < 0; }))
     return apportion_signed(layers, count, total, floats);
-  if (!(total > 0) || !std::isfinite(total)) {
-    for (int i = 0; i < count; ++i) floats[i] = total == 0 ? 0.0f : float(layers[i]);
-    return;
-  }
-  // u = ulp(total), by total's exponent; the smallest float has it where total is subnormal.
-  const std::uint32_t exponent = std::max(std::bit_cast<std::uint32_t>(total) >> 23, 1u);
-  const double u = std::bit_cast<double>(std::uint64_t(exponent + 1023 - 150) << 52),
-               units = std::bit_cast<double>(std::uint64_t(1023 + 150 - exponent) << 52);
-  double missing = total * units;  // all in units of u: whole numbers up to 2^24, which no sum rounds
-  for (int i = 0; i < count; ++i) {
-    constexpr double magic = 0x1.8p52;  // adding it rounds to the nearest whole number
-    const double whole = (layers[i] * units + magic) - magic;
-    floats[i] = float(whole);
-    missing -= whole;
-  }
-  while (missing != 0) {
-    const double step = missing > 0 ? 1 : -1;
-    int best = -1;
-    double most = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i < count; ++i) {
-      if (!(layers[i] > 0) || (step < 0 && floats[i] < 1)) continue;
-      const double short_by = step * (layers[i] * units - floats[i]);
-      if (short_by > most) most = short_by, best = i;
-    }
-    if (best < 0) break;
-    floats[best] = float(floats[best] + step);
-    missing -= step;
-  }
-  for (int i = 0; i < count; ++i) floats[i] = float(floats[i] * u);
+  std::vector<double> plain(static_cast<std::size_t>(count));
+  const bool possible = apportion_plainly(layers, count, double(total), plain.data());
+  for (int i = 0; i < count; ++i) floats[i] = float(possible ? plain[std::size_t(i)] : layers[i]);
 }
 
 std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light>& lights) {
@@ -246,29 +221,45 @@ void LayerBook::write_shares(Shares& shares, float* to) const {
   }
 }
 
-void LayerBook::write_layers(const double* layers, double scale, Work& work, float* pixel) const {
+void LayerBook::write_layers(const double* sums, std::size_t stride, double samples, Work& work,
+                             float* pixel) const {
   const int count = plan_.count();
   work.layers.resize(std::size_t(count));
   work.floats.resize(std::size_t(count));
   for (int c = 0; c < color_channels; ++c) {
-    for (int i = 0; i < count; ++i) work.layers[std::size_t(i)] = layers[i * color_channels + c] / scale;
+    for (int i = 0; i < count; ++i)
+      work.layers[std::size_t(i)] = sums[std::size_t(i * color_channels + c) * stride] / samples;
     apportion(work.layers.data(), count, pixel[c], work.floats.data());
     for (int i = 0; i < count; ++i) pixel[(i + 1) * color_channels + c] = work.floats[std::size_t(i)];
   }
 }
 
-void LayerBook::write(const double* sums, double samples, const PixelHits& hits, Work& work,
-                      float* pixel) const {
-  write_layers(sums, samples, work, pixel);
+float* LayerBook::write_data(const double* sums, std::size_t stride, double samples, const FirstHit& central,
+                             const double* albedo_sums, float* pixel) const {
   float* to = pixel + (plan_.count() + 1) * color_channels;
   for (int i = 0; i < plan_.wavelengths; ++i)
-    *to++ = float(sums[plan_.count() * color_channels + i] / samples);
-  const FirstHit& hit = hits.central;
-  *to++ = hit.object < 0 ? std::numeric_limits<float>::infinity() : hit.R;
-  for (const float n : hit.N) *to++ = n;
-  for (const float p : hit.P) *to++ = p;
-  for (const double a : hits.albedo) *to++ = float(a / hits.samples);
-  for (const float t : hit.uv) *to++ = t;
+    *to++ = float(sums[std::size_t(plan_.count() * color_channels + i) * stride] / samples);
+  *to++ = central.object < 0 ? std::numeric_limits<float>::infinity() : central.R;
+  for (const float n : central.N) *to++ = n;
+  for (const float p : central.P) *to++ = p;
+  for (int c = 0; c < color_channels; ++c) *to++ = float(albedo_sums[c] / samples);
+  for (const float t : central.uv) *to++ = t;
+  return to;
+}
+
+void LayerBook::write_data(const double* sums, std::size_t stride, const FirstHit& hit, float* pixel) const {
+  const double albedo[] = {hit.albedo[0], hit.albedo[1], hit.albedo[2]};
+  float* to = write_data(sums, stride, 1, hit, albedo, pixel);
+  std::fill_n(to, crypto_levels_ * 8, 0.0f);
+  if (hit.object < 0) return;
+  to[0] = object_ids_[std::size_t(hit.object)];
+  to[crypto_levels_ * 4] = material_ids_[std::size_t(hit.material)];
+  to[1] = to[crypto_levels_ * 4 + 1] = 1;
+}
+
+void LayerBook::write_data(const double* sums, std::size_t stride, double samples, const PixelHits& hits,
+                           Work& work, float* pixel) const {
+  float* to = write_data(sums, stride, samples, hits.central, hits.albedo, pixel);
   for (const auto& [met, ids] :
        {std::pair{&hits.objects, &object_ids_}, std::pair{&hits.materials, &material_ids_}}) {
     work.shares.clear();
@@ -289,7 +280,7 @@ void LayerBook::merge(const float* const corners[4], float* pixel) const {
   const std::size_t after_layers = std::size_t(plan_.count() + 1) * color_channels,
                     data = after_layers + std::size_t(plan_.wavelengths);
   for (std::size_t i = color_channels; i < after_layers; ++i) layers.push_back(mean(i));
-  write_layers(layers.data(), 1, work, pixel);
+  write_layers(layers.data(), 1, 1, work, pixel);
   for (std::size_t i = after_layers; i < data; ++i) pixel[i] = float(mean(i));
   for (std::size_t i = data; i < data + data_count; ++i)
     pixel[i] =

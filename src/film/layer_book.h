@@ -48,17 +48,24 @@ class LayerBook {
     std::vector<float> floats;
     Shares shares;
   };
-  /// Fills a pixel's channels after R, G, B, which must be there. The layers add up to these exactly
-  /// (`apportion`).
-  ///   sums  plan().count() * color_channels sums over `samples` samples
-  void write(const double* sums, double samples, const PixelHits& hits, Work& work, float* pixel) const;
+  /// Fills a pixel's channels of layers. They add up to its R, G, B exactly (`apportion`), which must be
+  /// there.
+  ///   sums  of each layer's channels over `samples` samples, `stride` numbers from one to the next
+  void write_layers(const double* sums, std::size_t stride, double samples, Work& work, float* pixel) const;
+  /// Fills the channels after them, of a pixel of one sample, or of more.
+  ///   sums  plan().columns() sums, likewise
+  void write_data(const double* sums, std::size_t stride, const FirstHit& hit, float* pixel) const;
+  void write_data(const double* sums, std::size_t stride, double samples, const PixelHits& hits, Work& work,
+                  float* pixel) const;
   /// A pixel that is the mean of four others, which `write` has made of one sample each.
   void merge(const float* const corners[4], float* pixel) const;
 
  private:
   /// Returns the names' ids.
   std::vector<float> add_cryptomatte(const std::string& name, const std::vector<std::string>& names);
-  void write_layers(const double* layers, double scale, Work& work, float* pixel) const;
+  /// All but Cryptomatte's. Returns where these go.
+  float* write_data(const double* sums, std::size_t stride, double samples, const FirstHit& central,
+                    const double* albedo_sums, float* pixel) const;
   void write_shares(Shares& shares, float* to) const;
 
   LayerPlan plan_;
@@ -78,10 +85,8 @@ std::string layer_name(const LayerPlan& plan, int layer, const std::vector<Light
 std::vector<std::string> object_names(const Scene& scene);
 std::vector<std::string> material_names(const Scene& scene);
 
-/// Makes floats of the layers of one channel that add up to `total` exactly: in any order, in float or
-/// double. All become whole multiples of total's last place, u = ulp(total), so that no sum of them needs
-/// rounding; each by the nearest, and what is then missing or too much goes, u by u, to those that were
-/// rounded most. So a layer is off by u at most, 2^-23 of the pixel's own brightness.
+/// Makes floats of the layers of one channel that add up to `total` exactly, as apportion_plainly does, in
+/// any order, in float or double.
 /// Where a layer is negative (light of few wavelengths lies outside of sRGB), layers may cancel, and no float
 /// may hold what a sum on its way comes to: there the sum in double, in any order, rounds to the pixel's
 /// float.

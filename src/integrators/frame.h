@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "accel/world.h"
+#include "film/apportion.h"
 #include "film/layers.h"
 #include "illumination/equation.h"
 #include "illumination/metallic_roughness.h"
@@ -304,7 +305,10 @@ struct PixelTask {
   double* sums;  ///< color_channels for each pixel: the samples' colours are added to it, in their order.
   float*
       least_and_greatest;  ///< Null, or for each pixel the least of each channel so far, then the greatest.
-  double* layer_sums = nullptr;    ///< Null, or frame.layers.columns() for each pixel, likewise.
+  /// Null, or frame.layers.columns() columns, each with a number for each pixel, likewise;
+  /// `layer_sums_stride` numbers from one column to the next.
+  double* layer_sums = nullptr;
+  std::size_t layer_sums_stride = 0;
   FirstHit* first_hits = nullptr;  ///< Null, or for each pixel one for each of the samples asked for.
   double* squares = nullptr;       ///< Null, or for each pixel the sum of the squares of samples' luminance.
 };
@@ -385,6 +389,7 @@ using RenderPixels = void(const Frame& frame, const PixelTask& task, Scratch& sc
 struct Kernel {
   const char* isa;
   RenderPixels* of[tracing_count];  ///< By Tracing.
+  ApportionLayers* apportion_layers;
   void render(const Frame& frame, const PixelTask& task, Scratch& scratch, RayCounts& counts) const {
     of[int(frame.tracing)](frame, task, scratch, counts);
   }

@@ -5,10 +5,11 @@
 namespace lambent {
 
 // One definition of each stands in the same source file, compiled under another name (see math/isa.h).
-#define LAMBENT_KERNEL(isa)                                       \
-  namespace isa_##isa {                                           \
-    RenderPixels render_whitted, render_path;                     \
-    constexpr Kernel kernel{#isa, {render_whitted, render_path}}; \
+#define LAMBENT_KERNEL(isa)                                                         \
+  namespace isa_##isa {                                                             \
+    RenderPixels render_whitted, render_path;                                       \
+    ApportionLayers apportion_layers;                                               \
+    constexpr Kernel kernel{#isa, {render_whitted, render_path}, apportion_layers}; \
   }
 #ifdef LAMBENT_KERNELS_baseline
 LAMBENT_KERNEL(baseline)

@@ -714,15 +714,16 @@ struct Wavefront {
     for (int c = 0; c < color_channels; ++c)
       layer_column(layer, c)[sample] += scratch.rays.weight[c][ray] * color[c];
   }
-  void add_layers_to_pixel(std::uint32_t pixel, std::uint32_t sample) const {
-    const int columns = frame.layers.columns();
-    double* sums = task.layer_sums + std::size_t(pixel) * std::size_t(columns);
-    for (int c = 0; c < columns; ++c) sums[c] += scratch.layers[std::size_t(c) * layer_stride + sample];
-  }
 
   void note_first_hits(const Lanes& at, const Hits& hits) const {
     const RayQueue& rays = scratch.rays;
-    const C albedo = diffuse_of(hits);
+    // Laid out once, to be taken one by one.
+    double P[3][lanes], N[3][lanes], albedo[color_channels][lanes], R[lanes];
+    hits.P.x.store(P[0]), hits.P.y.store(P[1]), hits.P.z.store(P[2]);
+    hits.N.x.store(N[0]), hits.N.y.store(N[1]), hits.N.z.store(N[2]);
+    hits.R.store(R);
+    const C diffuse = diffuse_of(hits);
+    for (int c = 0; c < color_channels; ++c) diffuse[c].store(albedo[c]);
     for (int k = 0; k < at.count; ++k) {
       const std::uint32_t ray = at.ray[k];
       FirstHit& first = task.first_hits[first_of_batch + rays.sample[ray]];
@@ -730,17 +731,16 @@ struct Wavefront {
           std::int32_t(object_of(frame.world, rays.instance[ray], rays.geometry[ray], rays.primitive[ray]));
       first.material = std::int32_t(hits.material[k]);
       first.primitive = rays.primitive[ray];
-      first.R = float(lane(hits.R, k));
-      const Vec3<double> P = lane(hits.P, k), N = lane(hits.N, k);
+      first.R = float(R[k]);
       const Geometry& geometry = frame.world.geometries[rays.geometry[ray]];
       Vec2<double> uv{};
       if (geometry.uvs)
-        uv = coordinates_at(frame.world, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]}, P)
+        uv = coordinates_at(frame.world, {rays.instance[ray], rays.geometry[ray], rays.primitive[ray]},
+                            {P[0][k], P[1][k], P[2][k]})
                  .uv[0];
-      first.P[0] = float(P.x), first.P[1] = float(P.y), first.P[2] = float(P.z);
-      first.N[0] = float(N.x), first.N[1] = float(N.y), first.N[2] = float(N.z);
+      for (int a = 0; a < 3; ++a) first.P[a] = float(P[a][k]), first.N[a] = float(N[a][k]);
       first.uv[0] = float(uv.x), first.uv[1] = float(uv.y);
-      Rgb kd = lane_color(albedo, k);
+      Rgb kd{albedo[0][k], albedo[1][k], albedo[2][k]};
       if (frame.pass) kd = from_pass(*frame.pass, kd);
       for (int c = 0; c < color_channels; ++c)  // passes add up
         first.albedo[c] = float(frame.pass ? first.albedo[c] + kd[c] : kd[c]);
@@ -750,6 +750,7 @@ struct Wavefront {
   // ---- the film
 
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
+    if (task.layer_sums) add_layers_to_pixels(first, count);
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int left = samples_per_pixel() - int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++pixel, left = samples_per_pixel()) {
@@ -761,11 +762,24 @@ struct Wavefront {
         for (std::uint32_t k = i; k < end; ++k) sum += color[k];
         sums[c] = sum;
       }
-      if (task.layer_sums)
-        for (std::uint32_t k = i; k < end; ++k) add_layers_to_pixel(pixel, k);
       if (task.squares) add_squares(pixel, i, end);
       if (task.least_and_greatest) widen_range(pixel, i, end);
       i = end;
+    }
+  }
+  void add_layers_to_pixels(std::uint64_t first, std::uint32_t count) const {
+    for (int c = 0; c < frame.layers.columns(); ++c) {
+      const double* from = &scratch.layers[std::size_t(c) * layer_stride];
+      double* sum = task.layer_sums + std::size_t(c) * task.layer_sums_stride + first / samples_per_pixel();
+      if (samples_per_pixel() == 1) {
+        for (std::uint32_t i = 0; i < count; ++i) sum[i] += from[i];
+        continue;
+      }
+      int left = samples_per_pixel() - int(first % samples_per_pixel());
+      for (std::uint32_t i = 0; i < count; ++i, --left) {
+        if (left == 0) ++sum, left = samples_per_pixel();
+        *sum += from[i];
+      }
     }
   }
   void add_squares(std::uint32_t pixel, std::uint32_t first, std::uint32_t end) const {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "film/layer_book.h"
+#include "integrators/kernels.h"
 #include "lambent/lambent.h"
 #include "lambent/relight.h"
 #include "random_scene.h"
@@ -156,6 +157,64 @@ TEST(Layers, ApportionedNumbersAreNearTheirOwnAndAddUpExactly) {
       }
     }
     ASSERT_EQ(total, added);
+  }
+}
+
+// Packets of pixels, on every instruction set of this machine, get the bits that each pixel gets by itself;
+// and those that packets cannot do are all named, and no others.
+TEST(Layers, ManyPixelsAreApportionedAsEachAlone) {
+  std::mt19937 random(2);
+  const auto chance = [&](int one_in) { return std::uniform_int_distribution<int>(1, one_in)(random) == 1; };
+  for (int run = 0; run < 60; ++run) {
+    const int layers = std::uniform_int_distribution<int>(1, 20)(random),
+              samples = std::uniform_int_distribution<int>(1, 9)(random),
+              channels = (layers + 1) * color_channels;
+    const auto pixels = std::uniform_int_distribution<std::uint32_t>(1, 100)(random);
+    const std::size_t stride = pixels + 16;
+    std::vector<double> sums(stride * std::size_t(layers * color_channels), 0.0);
+    std::vector<float> film(pixels * std::size_t(channels));
+    std::vector<std::uint8_t> must_be_left(pixels, 0);
+    for (std::uint32_t p = 0; p < pixels; ++p)
+      for (int c = 0; c < color_channels; ++c) {
+        const bool is_black = chance(5), is_odd = chance(30);
+        double total = 0;
+        for (int i = 0; i < layers; ++i) {
+          double& sum = sums[std::size_t(i * color_channels + c) * stride + p];
+          if (!is_black && !chance(3))
+            sum = std::exp2(std::uniform_real_distribution<double>(run % 7 == 0 ? -150 : -30, 5)(random));
+          if (is_odd && i == 0) sum = chance(2) ? -1 : HUGE_VAL;
+          total += sum / samples;
+        }
+        film[p * std::size_t(channels) + std::size_t(c)] = float(total);
+        must_be_left[p] |= is_odd;
+      }
+    std::vector<float> expected = film;
+    for (std::uint32_t p = 0; p < pixels; ++p)
+      for (int c = 0; c < color_channels; ++c) {
+        std::vector<double> means(static_cast<std::size_t>(layers));
+        for (int i = 0; i < layers; ++i)
+          means[std::size_t(i)] = sums[std::size_t(i * color_channels + c) * stride + p] / samples;
+        std::vector<float> floats(means.size());
+        float* pixel = &expected[p * std::size_t(channels)];
+        apportion(means.data(), layers, pixel[c], floats.data());
+        for (int i = 0; i < layers; ++i) pixel[(i + 1) * color_channels + c] = floats[std::size_t(i)];
+      }
+    for (const Kernel* kernel : kernels()) {
+      std::vector<float> found = film;
+      std::vector<float*> to;
+      for (std::uint32_t p = 0; p < pixels; ++p) to.push_back(&found[p * std::size_t(channels)]);
+      std::vector<std::uint8_t> left(pixels, 77);
+      std::vector<ApportionRoom> room(std::size_t(layers) * 2);
+      kernel->apportion_layers(
+          {sums.data(), stride, layers, samples, pixels, to.data(), left.data(), room.data()});
+      for (std::uint32_t p = 0; p < pixels; ++p) {
+        ASSERT_EQ(must_be_left[p], left[p]) << kernel->isa << ", pixel " << p;
+        if (left[p]) continue;
+        ASSERT_EQ(0, std::memcmp(to[p], &expected[p * std::size_t(channels)],
+                                 std::size_t(channels) * sizeof(float)))
+            << kernel->isa << ", pixel " << p << " of " << pixels << ", " << layers << " layers";
+      }
+    }
   }
 }
 

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "film/film.h"
@@ -97,6 +99,28 @@ TEST(Pattern, TentHasTheTentsVariance) {
   const auto points = sample_pattern(4096, Filter::tent);
   for (const auto& point : points) sum += (point.x - 0.5) * (point.x - 0.5);
   EXPECT_NEAR(sum / 4096, 1.0 / 6, 1e-3);
+}
+
+TEST(Film, IsBlackAtFirstHoweverManyThreadsAreBusyWithIt) {
+  for (const auto& [width, height] : {std::pair{1, 1}, {63, 5}, {1237, 911}})
+    for (const int threads : {1, 2, 3}) {
+      ImageSettings settings;
+      settings.width = width, settings.height = height;
+      const Film film(settings, nullptr, threads);
+      EXPECT_EQ(std::size_t(width) * std::size_t(height) * color_channels, film.values.size());
+      EXPECT_TRUE(std::all_of(film.values.begin(), film.values.end(), [](float v) { return v == 0; }));
+    }
+}
+
+TEST(Film, AMeanHasTheBitsOfTheQuotient) {
+  std::mt19937 random(3);
+  for (int samples = 1; samples <= 1024; ++samples) {
+    const Mean mean(samples);
+    for (const double lowest : {-1074.0, -30.0}) {
+      const double sum = std::exp2(std::uniform_real_distribution<double>(lowest, 10)(random));
+      ASSERT_EQ(sum / samples, mean.of(sum)) << sum << ", " << samples << " samples";
+    }
+  }
 }
 
 TEST(Film, CornersAreAveraged) {
