@@ -2,8 +2,9 @@
 // Layers of one channel as floats that add up to the pixel's own float exactly: in any order, in float or
 // double. For one pixel, or for a packet of them, with the same bits.
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "math/pack.h"
 
@@ -54,13 +55,14 @@ template <class F> MaskOf<F> apportion_plainly(const F* layers, int count, const
   const MaskOf<F> black = total == zero;
   missing = select(both(plain, MaskOf<F>(!black)), missing, zero);
   for (;;) {
-    const MaskOf<F> uneven = either(missing<zero, missing> zero);
+    const MaskOf<F> too_little = missing > zero, too_much = missing < zero;
+    const MaskOf<F> uneven = either(too_little, too_much);
     if (!any(uneven)) break;
-    const F step = select(missing > zero, one, -one);
+    const F step = select(too_little, one, -one);
     F most(-std::numeric_limits<double>::infinity()), best(-1.0);
     for (int i = 0; i < count; ++i) {
       const F short_by = step * (layers[i] * units - floats[i]);
-      const MaskOf<F> better = both(layers[i] > zero, either(step > zero, floats[i] >= one), short_by > most);
+      const MaskOf<F> better = both(layers[i] > zero, either(too_little, floats[i] >= one), short_by > most);
       most = select(better, short_by, most);
       best = select(better, F(double(i)), best);
     }
