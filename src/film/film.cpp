@@ -18,19 +18,20 @@ std::vector<float> zeros(std::size_t count, [[maybe_unused]] int threads) {
   std::vector<float> values;
   values.reserve(count);
 #ifdef MADV_POPULATE_WRITE
-  // Whole pages of it, by their numbers.
-  const auto page = std::uintptr_t(::sysconf(_SC_PAGESIZE)), begin = std::uintptr_t(values.data()),
-             first = (begin + page - 1) / page, last = (begin + count * sizeof(float)) / page,
-             pages = last > first ? last - first : 0;
-  constexpr std::uintptr_t worth_a_thread = 1024;
-  const std::uintptr_t crew = std::min(std::uintptr_t(threads), pages / worth_a_thread);
-  const auto ask = [&](std::uintptr_t i) {
-    const std::uintptr_t from = first + pages * i / crew, to = first + pages * (i + 1) / crew;
+  const std::size_t page = std::size_t(::sysconf(_SC_PAGESIZE)), bytes = count * sizeof(float);
+  // Up to the first page that is its own; then how many these are.
+  const std::size_t skipped = (page - std::uintptr_t(values.data()) % page) % page,
+                    pages = bytes > skipped ? (bytes - skipped) / page : 0;
+  char* const first = reinterpret_cast<char*>(values.data()) + (pages > 0 ? skipped : 0);
+  constexpr std::size_t worth_a_thread = 1024;
+  const std::size_t crew = std::min(std::size_t(threads), pages / worth_a_thread);
+  const auto ask = [&](std::size_t i) {
+    const std::size_t from = pages * i / crew, to = pages * (i + 1) / crew;
     // A wish: where the system does not know it, the pages come later.
-    ::madvise(reinterpret_cast<void*>(from * page), (to - from) * page, MADV_POPULATE_WRITE);
+    ::madvise(first + from * page, (to - from) * page, MADV_POPULATE_WRITE);
   };
   std::vector<std::jthread> others;
-  for (std::uintptr_t i = 1; i < crew; ++i) others.emplace_back(ask, i);
+  for (std::size_t i = 1; i < crew; ++i) others.emplace_back(ask, i);
   if (crew > 0) ask(0);
   others.clear();
 #endif
