@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/adaptive.h"
+#include "film/mean.h"
 
 namespace lambent {
 namespace {
@@ -74,13 +75,15 @@ struct Worker {
     task.layer_sums_stride = clear_layer_sums(columns, task.count);
     task.layer_sums = layer_sums.data();
   }
-  /// The layers of to_pixels, from layer_sums, but for those that are then `left`.
-  void apportion(const Kernel& kernel, const LayerBook& book, std::size_t stride, int samples) {
+  /// Fills the layers of to_pixels, whose colours must be there, from layer_sums.
+  void write_layers(const Kernel& kernel, const LayerBook& book, std::size_t stride, int samples) {
     const int layers = book.plan().count();
     left.resize(to_pixels.size());
     apportion_room.resize(std::size_t(layers) * 2);
     kernel.apportion_layers({layer_sums.data(), stride, layers, samples, std::uint32_t(to_pixels.size()),
                              to_pixels.data(), left.data(), apportion_room.data()});
+    for (std::size_t p = 0; p < to_pixels.size(); ++p)
+      if (left[p]) book.write_layers(&layer_sums[p], stride, samples, layer_work, to_pixels[p]);
   }
 };
 
@@ -154,19 +157,18 @@ class Crew {
   TileRun& run_;
 };
 
-/// The layers of the pixels of a task that is done; their colours must be in the film.
-void write_layers(const Kernel& kernel, const PixelTask& task, const std::vector<double>& distances,
-                  Film& film, Worker& worker) {
+/// The layers of the pixels of a task that is done, and what their samples met; their colours must be in the
+/// film.
+void write_layers_and_data(const Kernel& kernel, const PixelTask& task, const std::vector<double>& distances,
+                           Film& film, Worker& worker) {
   const LayerBook& book = *film.layers;
   const int samples = int(distances.size());
   const std::size_t stride = task.layer_sums_stride;
   worker.to_pixels.clear();
   for (std::uint32_t p = 0; p < task.count; ++p)
     worker.to_pixels.push_back(film.pixel(task.pixels[p].x, task.pixels[p].y));
-  worker.apportion(kernel, book, stride, samples);
+  worker.write_layers(kernel, book, stride, samples);
   for (std::uint32_t p = 0; p < task.count; ++p) {
-    if (worker.left[p])
-      book.write_layers(task.layer_sums + p, stride, samples, worker.layer_work, worker.to_pixels[p]);
     const FirstHit* hits = task.first_hits + std::size_t(p) * distances.size();
     if (samples == 1) {
       book.write_data(task.layer_sums + p, stride, hits[0], worker.to_pixels[p]);
@@ -194,7 +196,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   const Tiles tiles{film, options.tile_size};
   const std::size_t columns = film.layers ? std::size_t(frame.layers.columns()) : 0;
   const std::vector<double> distances = distances_from_centre(frame);
-  const Mean mean(frame.samples);
+  const Mean<double> mean(frame.samples);
   const bool noisy = frame.tracing == Tracing::path;
   // Added up tile by tile, so that the noise does not depend on who was first.
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
@@ -225,7 +227,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
           film.guides[film.index(pixels[p].x, pixels[p].y)].add(&worker.first_hits[p * distances.size()],
                                                                 distances.size());
       }
-      if (film.layers) write_layers(kernel, task, distances, film, worker);
+      if (film.layers) write_layers_and_data(kernel, task, distances, film, worker);
     }
   });
   NoiseSum sum;
@@ -288,14 +290,10 @@ class Goes {
       for (std::size_t x = 0; x < width; ++x)
         for (std::size_t c = 0; c < columns_; ++c)
           worker.layer_sums[c * stride + x] = samples.layer_sums(first + x)[c] / samples.samples(first + x);
-      worker.apportion(kernel_, book, stride, 1);
-      for (std::size_t x = 0; x < width; ++x) {
-        const double* sums = samples.layer_sums(first + x);
-        const int count = samples.samples(first + x);
-        float* to = worker.to_pixels[x];
-        if (worker.left[x]) book.write_layers(sums, 1, count, worker.layer_work, to);
-        book.write_data(sums, 1, count, samples.hits(first + x), worker.layer_work, to);
-      }
+      worker.write_layers(kernel_, book, stride, 1);
+      for (std::size_t x = 0; x < width; ++x)
+        book.write_data(samples.layer_sums(first + x), 1, samples.samples(first + x), samples.hits(first + x),
+                        worker.layer_work, worker.to_pixels[x]);
     });
   }
 

@@ -1,6 +1,7 @@
 // The layers of many pixels, a packet of pixels at a time.
 
 #include "film/apportion.h"
+#include "film/mean.h"
 #include "math/color.h"
 
 namespace lambent {
@@ -11,9 +12,7 @@ void apportion_layers(const ApportionTask& task) {
   constexpr int lanes = native_float_lanes;
   using F = Pack<double, lanes>;
   static_assert(sizeof(F) <= sizeof(ApportionRoom));
-  // Of powers of two the reciprocal is exact: then a product has the bits of the quotient, and comes sooner.
-  const bool is_power_of_two = (task.samples & (task.samples - 1)) == 0;
-  const F samples(double(task.samples)), share = F(1.0) / samples;
+  const Mean<F> mean(task.samples);
   F* const layers = reinterpret_cast<F*>(task.room);
   F* const floats = layers + task.layers;
   for (std::uint32_t first = 0; first < task.pixels; first += lanes) {
@@ -23,7 +22,7 @@ void apportion_layers(const ApportionTask& task) {
     for (int c = 0; c < color_channels; ++c) {
       const double* column = task.sums + std::size_t(c) * task.stride + first;
       for (int i = 0; i < task.layers; ++i, column += color_channels * task.stride)
-        layers[i] = is_power_of_two ? F::load(column) * share : F::load(column) / samples;
+        layers[i] = mean.of(F::load(column));
       const F total = gather<F>([&](int k) { return double(to[min(k, there - 1)][c]); });
       plain &= lane_bits(apportion_plainly(layers, task.layers, total, floats));
       for (int i = 0; i < task.layers; ++i) {

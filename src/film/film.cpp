@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <thread>
 #include <utility>
@@ -40,11 +39,6 @@ std::vector<float> zeros(std::size_t count, [[maybe_unused]] int threads) {
 }
 
 }  // namespace
-
-Mean::Mean(int samples) : samples_(samples), share_(1.0 / samples) {
-  int exponent = 0;
-  is_exact_ = std::frexp(samples_, &exponent) == 0.5;
-}
 
 void GuideSums::add(const FirstHit* hits, std::size_t count) {
   for (std::size_t s = 0; s < count; ++s)

@@ -14,17 +14,6 @@ struct GuideSums {
   void add(const FirstHit* hits, std::size_t count);
 };
 
-/// Divides sums by a number of samples; where that is a power of two by a multiplication, with the same bits.
-class Mean {
- public:
-  explicit Mean(int samples);
-  double of(double sum) const { return is_exact_ ? sum * share_ : sum / samples_; }
-
- private:
-  double samples_, share_;
-  bool is_exact_;
-};
-
 /// What the rays bring: a colour for each pixel, row 0 on top, and the layers' channels where there are
 /// layers. With Pattern::corners there is one row and one column more than in the picture.
 struct Film {

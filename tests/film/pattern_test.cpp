@@ -8,6 +8,7 @@
 #include <set>
 
 #include "film/film.h"
+#include "film/mean.h"
 
 namespace lambent {
 namespace {
@@ -115,7 +116,7 @@ TEST(Film, IsBlackAtFirstHoweverManyThreadsAreBusyWithIt) {
 TEST(Film, AMeanHasTheBitsOfTheQuotient) {
   std::mt19937 random(3);
   for (int samples = 1; samples <= 1024; ++samples) {
-    const Mean mean(samples);
+    const Mean<double> mean(samples);
     for (const double lowest : {-1074.0, -30.0}) {
       const double sum = std::exp2(std::uniform_real_distribution<double>(lowest, 10)(random));
       ASSERT_EQ(sum / samples, mean.of(sum)) << sum << ", " << samples << " samples";
