@@ -106,9 +106,21 @@ template <bool Seen> struct Work : Wavefront {
     }
   }
 
+  /// A packet of hits and a point of a light: what the shadow rays have found out, for the equation.
+  struct Lit {
+    Vec3<F> L;
+    F r;
+    C I;
+  };
+  /// A block of hits under the points of lights; the first of these are kept.
+  struct LitBlock : Block {
+    static constexpr int most_kept = 4;
+    Lit lit[most_kept][beam];
+  };
+
   void shade_group(int group, bool follow_on) {
     for (std::uint32_t first = group_first[group]; first < group_first[group + 1];) {
-      Block block;
+      LitBlock block;
       fill(block, group, first);
       if constexpr (Seen) {
         if (depth == 1 && task.first_hits)
@@ -127,7 +139,7 @@ template <bool Seen> struct Work : Wavefront {
 
   // ---- the equation
 
-  template <class Model> LAMBENT_FLATTEN void shade(const Block& block, int packet) {
+  template <class Model> LAMBENT_FLATTEN void shade(const LitBlock& block, int packet) {
     const Lanes& at = block.at[packet];
     const Hits& hits = block.hits[packet];
     Surface<F, C> s;
@@ -173,15 +185,21 @@ template <bool Seen> struct Work : Wavefront {
       const LightPoint& point = frame.light_points[scratch.reaching[number]];
       const std::uint32_t open = scratch.open[std::size_t(number) * beam + packet];
       if (open == 0) return {hits.N, grey(F(0))};
-      const auto light = sample_point(point, hits.P);
+      Lit found_again;
+      const bool kept = number < LitBlock::most_kept;
+      if (!kept) {
+        const auto found = sample_point(point, hits.P);
+        found_again = {found.L, found.r, found.I};
+      }
+      const Lit& light = kept ? block.lit[number][packet] : found_again;
       if constexpr (Model::info.unfaded_light) {
         const F faded = attenuate(fading.attenuation, light.r, minimum);
         const C Il = F(point.share) *
                      with_light(frame.lights[point.light], [](const auto& one) { return brightest<F>(one); });
-        return {light.L, share_that_passes(open, hits, light, point) * (faded * light.I), Il,
+        return {light.L, share_that_passes(open, hits, point) * (faded * light.I), Il,
                 faded * share_of(light.I, Il)};
       }
-      return {light.L, share_that_passes(open, hits, light, point) *
+      return {light.L, share_that_passes(open, hits, point) *
                            (attenuate(fading.attenuation, light.r, minimum) * light.I)};
     };
     const C emission = emission_of(hits);
@@ -224,7 +242,7 @@ template <bool Seen> struct Work : Wavefront {
 
   /// Decides which hits of a block a light reaches. No shadow ray is thrown where the light is behind the
   /// surface (N.L <= 0) or dark in this direction.
-  template <bool extended> LAMBENT_FLATTEN void look_at_light(int number, const Block& block) {
+  template <bool extended> LAMBENT_FLATTEN void look_at_light(int number, LitBlock& block) {
     const LightPoint& point = frame.light_points[scratch.reaching[number]];
     std::uint32_t* open_bits = &scratch.open[std::size_t(number) * beam];
     QueryRay<Query> rays[beam];
@@ -235,6 +253,10 @@ template <bool Seen> struct Work : Wavefront {
       const Hits& hits = block.hits[i];
       const auto light =
           sample_point(point, hits.P, []<class Light>(const Light&) { return HasExtent<Light> == extended; });
+      if (number < LitBlock::most_kept) {
+        Lit& kept = block.lit[number][i];
+        kept.L = light.L, kept.r = light.r, kept.I = light.I;
+      }
       const Truth lit = both(block.at[i].active, dot(hits.N, light.L) > F(0), Truth(!is_black(light.I)));
       open_bits[i] = lane_bits(lit);
       if (open_bits[i] == 0 || !frame.whitted.shadows) continue;
@@ -308,18 +330,16 @@ template <bool Seen> struct Work : Wavefront {
 
   /// How much of a light arrives at the lanes that it reaches: all, or what transmitting surfaces leave of
   /// it.
-  C share_that_passes(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light,
-                      const LightPoint& point) const {
+  C share_that_passes(std::uint32_t open, const Hits& hits, const LightPoint& point) const {
     const C passes = grey(select(mask_of_bits<Truth>(open), F(1), F(0)));
     if (all_opaque() || !frame.whitted.shadows) return passes;
-    return passes * transmittance(open, hits, light, point);
+    return passes * transmittance(open, hits, point);
   }
 
   /// What transmitting surfaces leave of the light: the product of their `transmit`, straight on, in the
   /// order in which the ray meets them.
-  [[gnu::noinline]] C transmittance(std::uint32_t open, const Hits& hits, const LightSample<F, C>& light,
-                                    const LightPoint& point) const {
-    const ShadowWay way = way_to(light, point, hits);
+  [[gnu::noinline]] C transmittance(std::uint32_t open, const Hits& hits, const LightPoint& point) const {
+    const ShadowWay way = way_to(sample_point(point, hits.P), point, hits);
     const QueryRay<Query> rays = query_rays(hits.front, way.d);
     const Query t_far = number_cast<float>(way.length);
     double left[color_channels][lanes] = {};
@@ -497,7 +517,7 @@ template <bool Seen> struct Work : Wavefront {
     const QueryRay<Query> shadow = query_rays(hits.front, way.d);
     const Query t_far = number_cast<float>(way.length);
     const F faded = attenuate(attenuation, light.r, F(frame.minimum_distance));
-    const C share = share_that_passes(open, hits, light, point), arriving = share * (faded * light.I);
+    const C share = share_that_passes(open, hits, point), arriving = share * (faded * light.I);
     const std::uint32_t asked =
         lane_bits(both(Truth(dot(hits.N, light.L) > F(0)), Truth(!is_black(light.I))));
     for (int k = 0; k < at.count; ++k)
