@@ -98,14 +98,18 @@ struct Wavefront {
     const bool has_lens = frame.camera.lens_radius > 0;
     if (has_lens) choose_lens_points(first, count);
     const int* order = frame.order;
+    // Where they go through the picture; made rays of below.
     auto pixel = std::uint32_t(first / samples_per_pixel());
     int sample = task.first_sample + int(first % samples_per_pixel());
-    for (std::uint32_t i = 0; i < count; ++i) {  // where they go through the picture; made rays of below
-      const int which = order ? order[sample] : sample;
-      rays.ox[i] = task.pixels[pixel].x + frame.pattern[which].x;
-      rays.oy[i] = task.pixels[pixel].y + frame.pattern[which].y;
-      rays.sample[i] = i;
-      if (++sample == task.end_sample) sample = task.first_sample, ++pixel;
+    for (std::uint32_t i = 0; i < count; ++pixel, sample = task.first_sample) {
+      const double x = task.pixels[pixel].x, y = task.pixels[pixel].y;
+      const std::uint32_t end = min(i + std::uint32_t(task.end_sample - sample), count);
+      for (; i < end; ++i, ++sample) {
+        const Vec2<double>& at = frame.pattern[order ? order[sample] : sample];
+        rays.ox[i] = x + at.x;
+        rays.oy[i] = y + at.y;
+        rays.sample[i] = i;
+      }
     }
     const CameraRecord& camera = frame.camera;
     const F half_width(0.5 * frame.width), half_height(0.5 * frame.height), per_unit(2.0 / frame.height);
@@ -267,29 +271,46 @@ struct Wavefront {
     // One's own, as the bytes that are written below could be those of another's pointers.
     const RayQueue rays = scratch.rays;
     std::uint32_t size[group_count] = {};
+    // Neighbours often meet the same, so that groups come in runs.
+    std::int32_t geometry = -1, instance = -1;
+    std::uint32_t material = 0, run_begin = 0;
+    std::uint8_t group = no_group;
+    const auto end_run = [&](std::uint32_t end) {
+      if (group != no_group) size[group] += end - run_begin;
+      run_begin = end;
+    };
     for (std::uint32_t i = 0; i < rays.count; ++i) {
-      const std::int32_t geometry = rays.geometry[i];
-      if (geometry < 0) {
+      if (rays.geometry[i] < 0) {
+        end_run(i);
+        geometry = -1, group = no_group;
         rays.group[i] = no_group;
         background(i);
         continue;
       }
-      const std::uint32_t m = material_of(frame.world, rays.instance[i], geometry, rays.primitive[i]);
+      const std::uint32_t m = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
       rays.material[i] = m;
-      // Neighbours often meet the same.
-      const bool as_before = i > 0 && geometry == rays.geometry[i - 1] && m == rays.material[i - 1] &&
-                             rays.instance[i] == rays.instance[i - 1];
-      const int group =
-          as_before ? rays.group[i - 1] : group_of(geometry, rays.instance[i] >= 0, m, way_to_shade);
-      rays.group[i] = std::uint8_t(group);
-      ++size[group];
+      if (rays.geometry[i] != geometry || m != material || rays.instance[i] != instance) {
+        end_run(i);
+        geometry = rays.geometry[i], instance = rays.instance[i], material = m;
+        group = std::uint8_t(group_of(geometry, instance >= 0, m, way_to_shade));
+      }
+      rays.group[i] = group;
     }
-    group_first[0] = 0;
-    for (int g = 0; g < group_count; ++g) group_first[g + 1] = group_first[g] + size[g];
+    end_run(rays.count);
     std::uint32_t next[group_count];
-    for (int g = 0; g < group_count; ++g) next[g] = group_first[g];
-    for (std::uint32_t i = 0; i < rays.count; ++i)
-      if (rays.group[i] != no_group) rays.order[next[rays.group[i]]++] = i;
+    group_first[0] = 0;
+    for (int g = 0; g < group_count; ++g)
+      next[g] = group_first[g], group_first[g + 1] = group_first[g] + size[g];
+    group = no_group;
+    std::uint32_t* order = nullptr;
+    for (std::uint32_t i = 0; i < rays.count; ++i) {
+      if (rays.group[i] != group) {
+        if (group != no_group) next[group] = std::uint32_t(order - rays.order.data);
+        group = rays.group[i];
+        if (group != no_group) order = &rays.order[next[group]];
+      }
+      if (group != no_group) *order++ = i;
+    }
   }
 
   int group_of(std::int32_t geometry, bool placed, std::uint32_t material,
