@@ -48,6 +48,25 @@ template <class F> F flat_offset(const Vec3<F>& Ng, const Vec3<F>& P, const F& s
   return F(4 * u) * sum_of_abs_products(Ng, P) + F(0x1p-48) * (max_abs(P) + size);
 }
 
+/// The lanes' primitives: value(k) of each, but value(0) for all where they are `one`, which is soon done.
+struct Gathering {
+  bool one;
+
+  template <class F, class Value> F numbers(const Value& value) const {
+    if (one) return F(value(0));
+    return gather<F>(value);
+  }
+  template <class F, class Value> Vec3<F> points(const Value& value) const {
+    if (one) return broadcast<F>(value(0));
+    return gather_points<F>(value);
+  }
+  /// That stand in memory as floats.
+  template <class F, class Value> Vec3<F> float_points(const Value& value) const {
+    if (one) return broadcast<F>(cast<double>(value(0)));
+    return gather_float_points<F>(value);
+  }
+};
+
 /// The instances of the lanes.
 template <class F> struct Placing { TransformOf<F> world_from_object, object_from_world; };
 
@@ -61,11 +80,12 @@ template <class F> struct Barycentric {
 /// Where the lanes' corners stand in memory, and their vertex normals: zero where there are none.
 template <int Lanes> struct TriangleCorners {
   const Vec3<float>*point[3][Lanes], *normal[3][Lanes];
+  Gathering gathering;
   bool any_normals = false;
 
-  TriangleCorners(const Geometry* const* g, const std::int32_t* primitive) {
+  TriangleCorners(const Geometry* const* g, const std::int32_t* primitive, Gathering of) : gathering(of) {
     static constexpr Vec3<float> none{0, 0, 0};
-    for (int k = 0; k < Lanes; ++k) {
+    for (int k = 0; k < (of.one ? 1 : Lanes); ++k) {
       const auto& corner = corners(*g[k], primitive[k]);
       const Vec3<float>* const normals = g[k]->normals;
       any_normals |= normals != nullptr;
@@ -82,7 +102,8 @@ void triangle_point(const Geometry* const* g, const TriangleCorners<lanes_of<F>>
                     const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s, Barycentric<F>& at) {
   const F zero(0), one(1);
   for (int i = 0; i < 3; ++i)
-    at.p[i] = gather_float_points<F>([&](int k) -> const Vec3<float>& { return *corners.point[i][k]; });
+    at.p[i] = corners.gathering.template float_points<F>(
+        [&](int k) -> const Vec3<float>& { return *corners.point[i][k]; });
   const auto& p = at.p;
   const Vec3<F> e1 = p[1] - p[0], e2 = p[2] - p[0], n = cross(e1, e2);
   const F nn = dot(n, n), slope = dot(n, d), size = max(max(max_abs(p[0]), max_abs(p[1])), max_abs(p[2]));
@@ -94,7 +115,7 @@ void triangle_point(const Geometry* const* g, const TriangleCorners<lanes_of<F>>
           b2 = min(max(dot(cross(e1, q), n) * inverse_nn, zero), one - b1);
   s.P = p[0] + (b1 * e1 + b2 * e2);
   s.t = dot(s.P - o, d) / dot(d, d);
-  const F outside = gather<F>([&](int k) { return g[k]->flipped ? -1.0 : 1.0; });
+  const F outside = corners.gathering.template numbers<F>([&](int k) { return g[k]->flipped ? -1.0 : 1.0; });
   s.Ng = (outside / sqrt(nn)) * n;
   const auto flat = !(nn > zero);  // no area in double, though float's rounding gave it some
   if (any(MaskOf<F>(flat))) {
@@ -118,7 +139,8 @@ void smooth_triangle(const TriangleCorners<lanes_of<F>>& corners, const Barycent
   Vec3<F> N{zero, zero, zero}, lift{zero, zero, zero};
   MaskOf<F> smooth = at.valid;
   for (int i = 0; i < 3; ++i) {
-    Vec3<F> ni = gather_float_points<F>([&](int k) -> const Vec3<float>& { return *corners.normal[i][k]; });
+    Vec3<F> ni = corners.gathering.template float_points<F>(
+        [&](int k) -> const Vec3<float>& { return *corners.normal[i][k]; });
     Vec3<F> p = at.p[i];
     smooth = both(smooth, MaskOf<F>(dot(ni, ni) > zero));  // a corner without a normal: the face is flat
     if (placing) {
@@ -139,11 +161,11 @@ void smooth_triangle(const TriangleCorners<lanes_of<F>>& corners, const Barycent
 }
 
 template <class F>
-void sphere_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o, const Vec3<F>& d,
-                  const F& t_found, SurfacePoint<F>& s) {
+void sphere_point(const Geometry* const* g, const std::int32_t* primitive, Gathering gathering,
+                  const Vec3<F>& o, const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s) {
   const auto sphere = [&](int k) -> const Sphere& { return g[k]->spheres[primitive[k]]; };
-  const Vec3<F> center = gather_points<F>([&](int k) -> const Vec3<double>& { return sphere(k).center; });
-  const F radius = gather<F>([&](int k) { return sphere(k).radius; });
+  const Vec3<F> center = gathering.points<F>([&](int k) -> const Vec3<double>& { return sphere(k).center; });
+  const F radius = gathering.numbers<F>([&](int k) { return sphere(k).radius; });
   const Vec3<F> f = o - center;
   const F a = dot(d, d), middle = -dot(f, d) / a;
   const Vec3<F> l = f + middle * d;
@@ -156,14 +178,14 @@ void sphere_point(const Geometry* const* g, const std::int32_t* primitive, const
 }
 
 template <class F>
-void cone_point(const Geometry* const* g, const std::int32_t* primitive, const Vec3<F>& o, const Vec3<F>& d,
-                const F& t_found, SurfacePoint<F>& s) {
+void cone_point(const Geometry* const* g, const std::int32_t* primitive, Gathering gathering,
+                const Vec3<F>& o, const Vec3<F>& d, const F& t_found, SurfacePoint<F>& s) {
   const auto cone = [&](int k) -> const PlacedCone& { return g[k]->cones[primitive[k]]; };
-  const Vec3<F> base = gather_points<F>([&](int k) -> const Vec3<double>& { return cone(k).base; }),
-                axis = gather_points<F>([&](int k) -> const Vec3<double>& { return cone(k).axis; });
-  const F height = gather<F>([&](int k) { return cone(k).height; }),
-          radius = gather<F>([&](int k) { return cone(k).radius; }),
-          slope = gather<F>([&](int k) { return cone(k).slope; });
+  const Vec3<F> base = gathering.points<F>([&](int k) -> const Vec3<double>& { return cone(k).base; }),
+                axis = gathering.points<F>([&](int k) -> const Vec3<double>& { return cone(k).axis; });
+  const F height = gathering.numbers<F>([&](int k) { return cone(k).height; }),
+          radius = gathering.numbers<F>([&](int k) { return cone(k).radius; }),
+          slope = gathering.numbers<F>([&](int k) { return cone(k).slope; });
   const F zero(0), infinity(__builtin_inf());
   // As meet_cone, from the origin next to the middle of the cone.
   const F slide = -dot(o - (base + F(0.5) * height * axis), d) / dot(d, d);
@@ -207,9 +229,11 @@ template <class F>
 SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32_t*>& ids, const Vec3<F>& o,
                            const Vec3<F>& d, const F& t_found) {
   constexpr int lanes = lanes_of<F>;
+  const std::int32_t* primitive = ids.primitive;
+  const detail::Gathering gathering{all_equal<lanes>(primitive) && all_equal<lanes>(ids.geometry) &&
+                                    all_equal<lanes>(ids.instance)};
   const Geometry* g[lanes];
   for (int k = 0; k < lanes; ++k) g[k] = &world.geometries[ids.geometry[k]];
-  const std::int32_t* primitive = ids.primitive;
 
   // In the space of the primitives.
   const bool placed = ids.instance[0] >= 0;
@@ -235,7 +259,7 @@ SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32
   };
   switch (g[0]->kind) {
     case PrimitiveKind::triangle: {
-      const detail::TriangleCorners<lanes> corners(g, primitive);
+      const detail::TriangleCorners<lanes> corners(g, primitive, gathering);
       detail::Barycentric<F> at;
       detail::triangle_point(g, corners, o_there, d_there, t_found, s, at);
       into_the_world();
@@ -243,21 +267,22 @@ SurfacePoint<F> surface_at(const WorldView& world, const HitIds<const std::int32
       return s;
     }
     case PrimitiveKind::sphere:
-      detail::sphere_point(g, primitive, o_there, d_there, t_found, s);
+      detail::sphere_point(g, primitive, gathering, o_there, d_there, t_found, s);
       break;
     case PrimitiveKind::cone:
-      detail::cone_point(g, primitive, o_there, d_there, t_found, s);
+      detail::cone_point(g, primitive, gathering, o_there, d_there, t_found, s);
       break;
     case PrimitiveKind::disc:
       detail::plane_point(
-          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].center; }),
-          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].normal; }),
+          gathering.points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].center; }),
+          gathering.points<F>([&](int k) -> const Vec3<double>& { return g[k]->discs[primitive[k]].normal; }),
           o_there, d_there, t_found, s);
       break;
     case PrimitiveKind::plane:
       detail::plane_point(
-          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].point; }),
-          gather_points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].normal; }),
+          gathering.points<F>([&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].point; }),
+          gathering.points<F>(
+              [&](int k) -> const Vec3<double>& { return g[k]->planes[primitive[k]].normal; }),
           o_there, d_there, t_found, s);
       break;
     case PrimitiveKind::instance:

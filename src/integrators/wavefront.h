@@ -413,17 +413,27 @@ struct Wavefront {
   LAMBENT_FLATTEN void look(const Lanes& at, Hits& hits) const {
     const RayQueue& rays = scratch.rays;
     const Vec3<F> o = at.load(rays.ox, rays.oy, rays.oz), d = at.load(rays.dx, rays.dy, rays.dz);
-    std::int32_t instance[lanes], geometry[lanes], primitive[lanes];
     hits.painted = nullptr;
-    hits.one_material = true;
-    for (int k = 0; k < lanes; ++k) {
-      instance[k] = rays.instance[at.ray[k]], geometry[k] = rays.geometry[at.ray[k]],
-      primitive[k] = rays.primitive[at.ray[k]];
-      hits.material[k] = rays.material[at.ray[k]];
-      hits.one_material &= hits.material[k] == hits.material[0];
+    std::int32_t apart[3][lanes];
+    float t[lanes];
+    HitIds<const std::int32_t*> ids{apart[0], apart[1], apart[2]};
+    Query t_found;
+    if (at.adjacent) {
+      const std::uint32_t ray = at.ray[0];
+      ids = {&rays.instance[ray], &rays.geometry[ray], &rays.primitive[ray]};
+      std::memcpy(hits.material, &rays.material[ray], sizeof hits.material);
+      t_found = Query::load(&rays.t[ray]);
+    } else {
+      for (int k = 0; k < lanes; ++k) {
+        const std::uint32_t ray = at.ray[k];
+        apart[0][k] = rays.instance[ray], apart[1][k] = rays.geometry[ray], apart[2][k] = rays.primitive[ray];
+        hits.material[k] = rays.material[ray];
+        t[k] = rays.t[ray];
+      }
+      t_found = Query::load(t);
     }
-    const F t_found = gather<F>([&](int k) { return double(rays.t[at.ray[k]]); });
-    const SurfacePoint<F> s = surface_at<F>(frame.world, {instance, geometry, primitive}, o, d, t_found);
+    hits.one_material = all_equal<lanes>(hits.material);
+    const SurfacePoint<F> s = surface_at<F>(frame.world, ids, o, d, number_cast<double>(t_found));
     hits.P = s.P;
     hits.V = -d;
     hits.outside = dot(s.Ng, hits.V) >= F(0);

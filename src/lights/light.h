@@ -95,7 +95,6 @@ template <class F> Color<F> emitted(const Rgb& color, double intensity) {
   for (int i = 0; i < color_channels; ++i) result[i] = F(color[i] * intensity);
   return result;
 }
-template <class F> Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
 
 /// The colour that a light sends in its brightest direction. Every light has a `color` and an `intensity`,
 /// and `sample` hands out their product or, per channel by the same factor, less. (Near a sphere it is more,

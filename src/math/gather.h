@@ -10,6 +10,13 @@
 namespace lambent {
 inline namespace LAMBENT_ISA {
 
+/// Whether N numbers that stand side by side are the same.
+template <int N, class T> bool all_equal(const T* numbers) {
+  T different = 0;
+  for (int k = 1; k < N; ++k) different |= numbers[k] ^ numbers[0];
+  return different == 0;
+}
+
 /// Lane by lane the nearest vector of To.
 template <class To, class F> Vec3<With<F, To>> number_cast(const Vec3<F>& v) {
   return {number_cast<To>(v.x), number_cast<To>(v.y), number_cast<To>(v.z)};

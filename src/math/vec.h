@@ -50,6 +50,8 @@ template <class F, class M> Vec3<F> select(const M& m, const Vec3<F>& a, const V
 /// The mirror image of L about N, both pointing away from the surface: R = 2 (N.L) N - L.
 template <class F> Vec3<F> reflect(const Vec3<F>& L, const Vec3<F>& N) { return F(2) * dot(N, L) * N - L; }
 
+/// The vector in every lane.
+template <class F> Vec3<F> broadcast(const Vec3<double>& v) { return {F(v.x), F(v.y), F(v.z)}; }
 template <class T, class F> constexpr Vec3<T> cast(const Vec3<F>& a) { return {T(a.x), T(a.y), T(a.z)}; }
 template <class F> F max_abs(const Vec3<F>& a) { return max(max(abs(a.x), abs(a.y)), abs(a.z)); }
 
