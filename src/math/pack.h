@@ -127,19 +127,34 @@ template <class Int, int W> void set_lane(Mask<Int, W>& a, int i, bool value) {
   a = mask_of_bits<Mask<Int, W>>(value ? others | bit : others);
 }
 
-/// The least and the greatest lane.
-template <class T, int W, class Choose> T reduce(const Pack<T, W>& a, const Choose& choose) {
-  T values[W];
-  a.store(values);
-  for (int n = W / 2; n > 0; n /= 2)
-    for (int i = 0; i < n; ++i) values[i] = choose(values[i], values[i + n]);
-  return values[0];
+template <int First, class Raw, std::size_t... k> auto half(const Raw& a, std::index_sequence<k...>) {
+  return __builtin_shufflevector(a, a, (First + int(k))...);
 }
+
+/// Of a register's lanes the one that choose(a, b) leaves when halves are laid upon each other.
+template <class Raw, class Choose> auto reduced(const Raw& a, const Choose& choose) {
+  constexpr int lanes = sizeof(Raw) / sizeof(a[0]);
+  if constexpr (lanes == 2) {
+    return choose(a[0], a[1]);
+  } else if constexpr (sizeof(Raw) == 16) {  // there is no smaller register
+    const Raw last = choose(a, Raw(__builtin_shufflevector(a, a, 2, 3, 2, 3)));
+    return choose(last[0], last[1]);
+  } else {
+    const auto lower = half<0>(a, std::make_index_sequence<lanes / 2>()),
+               upper = half<lanes / 2>(a, std::make_index_sequence<lanes / 2>());
+    return reduced(choose(lower, upper), choose);
+  }
+}
+template <class T, int W, class Choose> T reduce(const Pack<T, W>& a, const Choose& choose) {
+  if constexpr (Pack<T, W>::In::parts == 2) return reduced(choose(a.p0, a.p1), choose);
+  else return reduced(a.p0, choose);
+}
+/// The least and the greatest lane.
 template <class T, int W> T least(const Pack<T, W>& a) {
-  return reduce(a, [](T x, T y) { return min(x, y); });
+  return reduce(a, [](const auto& x, const auto& y) { return x < y ? x : y; });
 }
 template <class T, int W> T greatest(const Pack<T, W>& a) {
-  return reduce(a, [](T x, T y) { return max(x, y); });
+  return reduce(a, [](const auto& x, const auto& y) { return x > y ? x : y; });
 }
 template <Scalar T> T least(T a) { return a; }
 template <Scalar T> T greatest(T a) { return a; }
@@ -169,9 +184,6 @@ template <class F, class Value> F gather(const Value& value) {
   }
 }
 
-template <int First, class Raw, std::size_t... k> auto half(const Raw& a, std::index_sequence<k...>) {
-  return __builtin_shufflevector(a, a, (First + int(k))...);
-}
 template <class Half, std::size_t... k> auto joined(const Half& a, const Half& b, std::index_sequence<k...>) {
   return __builtin_shufflevector(a, b, int(k)...);
 }
