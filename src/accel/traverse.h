@@ -29,9 +29,9 @@ template <class F> struct Closest {
   HitIds<I> ids{I(-1), I(-1), I(-1)};
 };
 
-/// Packets of rays that go through a tree together: at most so many, and so many as are best for eye and
-/// shadow rays.
-inline constexpr int max_packets = 8, beam = 4;
+/// How many packets of rays go through a tree together, at most. Sixteen would save time where samples lie
+/// close together, and cost some where a ray meets its own triangle.
+inline constexpr int beam = 8;
 
 /// The rays as the boxes see them. A box is met between its sides along x, y and z; from a side at p the ray
 /// is (p - o) / d away, or p / d - o / d.
@@ -353,7 +353,7 @@ void traverse_packets(const WorldView& world, const Bvh& bvh, const QueryRay<F>*
     const auto ask = [&](const BvhChild& child, const BvhNode&, int) { leaf(child, Comers{1, 1}); };
     traverse(world, bvh, RayBeam(rays[0], bvh.extent), t_far[0], ask);
   } else {
-    BoxRay<F> box_rays[max_packets];
+    BoxRay<F> box_rays[beam];
     for (int i = 0; i < count; ++i) box_rays[i] = BoxRay<F>(rays[i], bvh.extent);
     if (count > 1 && traverse_together(world, bvh, rays, box_rays, t_far, count, leaf)) return;
     for (int i = 0; i < count; ++i) {
@@ -555,12 +555,12 @@ void visit_primitives(const WorldView& world, const QueryRay<F>* rays, F* t_far,
   traverse_packets(world, world.bvhs[0], rays, t_far, count, ask_here);
 }
 
-/// For `count` packets of rays (at most max_packets) the closest hits before hits[i].t, in every active lane.
+/// For `count` packets of rays (at most beam) the closest hits before hits[i].t, in every active lane.
 template <class F>
 void find_closest(const WorldView& world, const QueryRay<F>* rays, const MaskOf<F>* active, int count,
                   Closest<F>* hits) {
   using I = typename Closest<F>::I;
-  F t_far[max_packets];
+  F t_far[beam];
   for (int i = 0; i < count; ++i) t_far[i] = select(active[i], hits[i].t, F(-1.f));
   visit_primitives(world, rays, t_far, count,
                    [&](int i, std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {
@@ -609,7 +609,7 @@ inline std::uint32_t object_of(const WorldView& world, std::int32_t instance, st
 template <class F>
 void find_open(const WorldView& world, const QueryRay<F>* rays, const F* t_far, int count, bool all_opaque,
                MaskOf<F>* open) {
-  F left[max_packets];
+  F left[beam];
   for (int i = 0; i < count; ++i) left[i] = select(open[i], t_far[i], F(-1.f));
   visit_primitives(world, rays, left, count,
                    [&](int i, std::int32_t instance, const PrimitiveRef& ref, const Meeting<F>& m) {

@@ -199,7 +199,7 @@ TEST(Queries, ABeamOfPacketsGivesTheBitsOfEachRay) {
     auto& [random, scene, world, view, middle] = in;
     int hits = 0, blocked_rays = 0;
     for (int i = 0; i < 1500; ++i) {
-      constexpr int most = max_packets;
+      constexpr int most = beam;
       const int count = 1 + i % most;
       const double width = std::pow(10, random.number(-4, 0)), reach = random.number(0, 0.1);
       const Vec3<double> eye = middle + random.point(2);
