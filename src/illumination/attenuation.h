@@ -23,6 +23,7 @@ inline namespace LAMBENT_ISA {
 /// it fades no less: it keeps 1/r finite where a surface touches a light. A light at infinity (r infinite)
 /// does not fade.
 template <class F> F attenuate(const Attenuation& a, F r, F minimum) {
+  if (a.linear == 0 && a.quadratic == 0) return select(r == F(__builtin_inf()), F(1), F(1 / a.constant));
   const F d = max(r, minimum);
   const F faded = F(1) / (F(a.constant) + F(a.linear) * d + F(a.quadratic) * (d * d));
   return select(r == F(__builtin_inf()), F(1), faded);

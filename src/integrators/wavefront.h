@@ -787,12 +787,11 @@ struct Wavefront {
     for (std::uint32_t i = 0; i < count; ++pixel, left = samples_per_pixel()) {
       const std::uint32_t end = min(i + std::uint32_t(left), count);
       double* sums = &task.sums[std::size_t(pixel) * color_channels];
-      for (int c = 0; c < color_channels; ++c) {
-        const double* color = scratch.samples.color[c].data;
-        double sum = sums[c];
-        for (std::uint32_t k = i; k < end; ++k) sum += color[k];
-        sums[c] = sum;
-      }
+      double sum[color_channels];
+      for (int c = 0; c < color_channels; ++c) sum[c] = sums[c];
+      for (std::uint32_t k = i; k < end; ++k)  // one channel need not wait for another
+        for (int c = 0; c < color_channels; ++c) sum[c] += scratch.samples.color[c][k];
+      for (int c = 0; c < color_channels; ++c) sums[c] = sum[c];
       if (task.squares) add_squares(pixel, i, end);
       if (task.least_and_greatest) widen_range(pixel, i, end);
       i = end;

@@ -12,9 +12,8 @@ inline namespace LAMBENT_ISA {
 
 /// Whether N numbers that stand side by side are the same.
 template <int N, class T> bool all_equal(const T* numbers) {
-  T different = 0;
-  for (int k = 1; k < N; ++k) different |= numbers[k] ^ numbers[0];
-  return different == 0;
+  if constexpr (N == 1) return true;
+  else return all(Pack<T, N>::load(numbers) == Pack<T, N>(numbers[0]));
 }
 
 /// Lane by lane the nearest vector of To.
