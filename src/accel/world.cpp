@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <tuple>
 
@@ -219,6 +220,7 @@ class Builder {
     Geometry g{};
     g.count = std::uint32_t(all.primitives.size());
     refer(g, std::move(all.primitives));
+    g.one_material = std::ranges::adjacent_find(all.materials, std::not_equal_to{}) == all.materials.end();
     g.object_of_primitive = keep(world_.placed_numbers, std::move(all.objects));
     g.scene_material = keep(world_.placed_numbers, std::move(all.materials));
     world_.geometries.push_back(g);
@@ -231,6 +233,7 @@ class Builder {
     Geometry g{};
     g.material_of_primitive =
         shape.material_of_primitive.empty() ? nullptr : shape.material_of_primitive.data();
+    g.one_material = !g.material_of_primitive;
     g.count = std::uint32_t(primitive_count(shape));
     std::visit([&](const auto& primitives) { place(primitives, t, g); }, shape.primitives);
     world_.geometries.push_back(g);

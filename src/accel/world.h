@@ -28,7 +28,8 @@ struct PlacedCone {
 /// Primitives of one kind in one space: the world's, or that of a shape with a tree of its own.
 struct Geometry {
   PrimitiveKind kind;
-  bool flipped = false;  ///< Triangles: the placing mirrored them, the counter-clockwise side is inside.
+  bool flipped = false;       ///< Triangles: the placing mirrored them, the counter-clockwise side is inside.
+  bool one_material = false;  ///< All primitives that one object shows are of the same material.
   std::uint32_t count = 0;
   std::uint32_t object = 0;  ///< Baked geometry: the object that shows it. Otherwise the instance says.
   const Vec3<float>* vertices = nullptr;

@@ -275,6 +275,7 @@ struct Wavefront {
     std::int32_t geometry = -1, instance = -1;
     std::uint32_t material = 0, run_begin = 0;
     std::uint8_t group = no_group;
+    bool one_material = false;
     const auto end_run = [&](std::uint32_t end) {
       if (group != no_group) size[group] += end - run_begin;
       run_begin = end;
@@ -287,13 +288,18 @@ struct Wavefront {
         background(i);
         continue;
       }
-      const std::uint32_t m = material_of(frame.world, rays.instance[i], rays.geometry[i], rays.primitive[i]);
-      rays.material[i] = m;
-      if (rays.geometry[i] != geometry || m != material || rays.instance[i] != instance) {
-        end_run(i);
-        geometry = rays.geometry[i], instance = rays.instance[i], material = m;
-        group = std::uint8_t(group_of(geometry, instance >= 0, m, way_to_shade));
+      const bool elsewhere = rays.geometry[i] != geometry || rays.instance[i] != instance;
+      if (elsewhere || !one_material) {
+        geometry = rays.geometry[i], instance = rays.instance[i];
+        const std::uint32_t m = material_of(frame.world, instance, geometry, rays.primitive[i]);
+        if (elsewhere || m != material) {
+          end_run(i);
+          material = m;
+          one_material = frame.world.geometries[geometry].one_material;
+          group = std::uint8_t(group_of(geometry, instance >= 0, m, way_to_shade));
+        }
       }
+      rays.material[i] = material;
       rays.group[i] = group;
     }
     end_run(rays.count);
