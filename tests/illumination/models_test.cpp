@@ -119,6 +119,9 @@ TEST(Equation, ObserverSeesTheSummandsInOrder) {
 
 TEST(Attenuation, ClosedForms) {
   EXPECT_EQ(attenuate(attenuation_none, 7.0, 1e-3), 1);
+  EXPECT_EQ(attenuate(Attenuation{2, 0, 0}, 7.0, 1e-3),
+            1 / 2.0);  // 1 / (constant + linear r + quadratic r^2)
+  EXPECT_EQ(attenuate(Attenuation{2, 0, 0}, double(INFINITY), 1e-3), 1);
   EXPECT_EQ(attenuate(attenuation_1_over_r, 4.0, 1e-3), 1 / 4.0);
   EXPECT_EQ(attenuate(attenuation_1_over_r2, 4.0, 1e-3), 1 / 16.0);
   EXPECT_DOUBLE_EQ(attenuate(Attenuation{1, 2, 3}, 2.0, 1e-3), 1 / (1 + 2 * 2 + 3 * 4.0));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -627,6 +628,30 @@ lights:
     brightest = std::max(brightest, sum[k]);
   }
   EXPECT_GT(brightest, 0.3);
+}
+
+/// What the shadow rays find out of the first lights is kept for the equation, of others it is found again.
+TEST(ManyLights, ALightGivesTheSameWhereverItStandsInTheList) {
+  for (const std::string light : {"point: {position: [1, 2, 3]}",
+                                  "rectangle: {center: [1, 2, 3], u: [1, 0, 0], v: [0, 1, 0], samples: 9}",
+                                  "spot: {position: [1, 2, 3], target: [0, 0, 0], angle: 60}"})
+    for (const char* transmit : {"0", "0.5"}) {
+      const auto among_dark_ones = [&](int place) {
+        std::string scene = fmt::format(
+            "{{lambent: 1, camera: {{eye: [0, 0, 5], target: [0, 0, 0]}}, image: {{size: [24, 16]}}, "
+            "materials: [{{name: a, diffuse: 0.5, specular: 0.5, shininess: 9, transmit: {}}}], "
+            "objects: [{{sphere: {{center: [0, 0, 0], radius: 1}}, material: a}}, "
+            "{{sphere: {{center: [0.4, 0.8, 1.2], radius: 0.3}}, material: a}}], lights: [",
+            transmit);
+        for (int i = 0; i < 7; ++i)
+          scene += i == place ? "{" + light + "}, " : "{point: {position: [3, 1, 4], intensity: 0}}, ";
+        return picture(scene + "]}").data;
+      };
+      const std::vector<float> first = among_dark_ones(0);
+      EXPECT_GT(*std::ranges::max_element(first), 0.02) << light;
+      for (const int place : {3, 4, 6})
+        EXPECT_EQ(among_dark_ones(place), first) << light << ", place " << place;
+    }
 }
 
 TEST(Cancelling, StopsAndSaysSo) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <random>
 
+#include "math/gather.h"
 #include "math/pack.h"
 #include "math/transform.h"
 
@@ -84,6 +85,38 @@ TEST(Pack, AMaskOfBitsHasThem) {
     const DoublePack ones = select(mask_of_bits<DoubleMask>(bits), DoublePack(1.0), DoublePack(0.0));
     for (int k = 0; k < lanes; ++k) EXPECT_EQ(lane(ones, k), bits >> k & 1 ? 1 : 0);
   }
+}
+
+template <class F> void expect_least_and_greatest() {
+  constexpr int count = lanes_of<F>;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<decltype(lane(F(), 0))> number(-3, 3);
+  for (int i = 0; i < 1000; ++i) {
+    const F a = gather<F>([&](int) { return number(random); });
+    auto least_of_all = lane(a, 0), greatest_of_all = lane(a, 0);
+    for (int k = 1; k < count; ++k)
+      least_of_all = std::min(least_of_all, lane(a, k)),
+      greatest_of_all = std::max(greatest_of_all, lane(a, k));
+    EXPECT_EQ(least(a), least_of_all);
+    EXPECT_EQ(greatest(a), greatest_of_all);
+  }
+}
+TEST(Pack, TheLeastAndTheGreatestLaneAreAmongAll) {
+  expect_least_and_greatest<Pack<float, 4>>();
+  expect_least_and_greatest<Pack<float, lanes>>();
+  expect_least_and_greatest<DoublePack>();  // two registers
+}
+
+TEST(Pack, NumbersAreEqualOnlyIfAllAre) {
+  std::int32_t numbers[lanes];
+  for (std::int32_t& number : numbers) number = -5;
+  EXPECT_TRUE(all_equal<lanes>(numbers));
+  for (std::int32_t& number : numbers) {
+    number = 5;
+    EXPECT_FALSE(all_equal<lanes>(numbers));
+    number = -5;
+  }
+  EXPECT_TRUE(all_equal<1>(numbers));
 }
 
 TEST(Functions, SineAndCosine) {
