@@ -98,25 +98,45 @@ template <class F> F exact_edge(F found, const Vec3<F>& a, const Vec3<F>& b) {
   return found;
 }
 
+/// A triangle laid into the plane across a ray, which there is the origin: its corners, and what its edges
+/// span with the ray. Each corner is laid there by itself, the same whatever triangle it belongs to.
+template <class F> struct TriangleAcross {
+  Vec3<F> a, b, c;
+  F U, V, W;
+
+  TriangleAcross(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F>& p1, const Vec3<F>& p2)
+      : a(ray.permute(p0 - ray.o)), b(ray.permute(p1 - ray.o)), c(ray.permute(p2 - ray.o)) {
+    a.x = a.x - ray.shear_x * a.z, a.y = a.y - ray.shear_y * a.z;
+    b.x = b.x - ray.shear_x * b.z, b.y = b.y - ray.shear_y * b.z;
+    c.x = c.x - ray.shear_x * c.z, c.y = c.y - ray.shear_y * c.z;
+    U = edge(b, c), V = edge(c, a), W = edge(a, b);
+  }
+  /// Where the ray is inside of the triangle, and some more, as a zero passes for either sign.
+  MaskOf<F> inside() const {
+    const F zero(0.f);
+    return either(min(min(U, V), W) >= zero, max(max(U, V), W) <= zero);
+  }
+};
+
+/// Whether any ray can meet the triangle: false only where meet_triangle finds no hit, and sooner.
+template <class F>
+bool may_meet_triangle(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F>& p1, const Vec3<F>& p2) {
+  return any(TriangleAcross<F>(ray, p0, p1, p2).inside());
+}
+
 /// Triangle p0 p1 p2, both sides: Woop, Benthin and Wald, Watertight ray/triangle intersection, JCGT 2(1),
-/// 2013. Each corner is laid into the plane across the ray, the same whatever triangle it belongs to, and
-/// what the edges span there with the ray has an exact sign: a ray cannot pass between two triangles, nor
+/// 2013. What the edges span with the ray has an exact sign: a ray cannot pass between two triangles, nor
 /// through their common corner. One triangle for all rays of a packet, or one for each.
 template <class F>
 Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F>& p1, const Vec3<F>& p2) {
-  const Vec3<F> v0 = p0 - ray.o;
-  Vec3<F> a = ray.permute(v0), b = ray.permute(p1 - ray.o), c = ray.permute(p2 - ray.o);
-  a.x = a.x - ray.shear_x * a.z, a.y = a.y - ray.shear_y * a.z;
-  b.x = b.x - ray.shear_x * b.z, b.y = b.y - ray.shear_y * b.z;
-  c.x = c.x - ray.shear_x * c.z, c.y = c.y - ray.shear_y * c.z;
   const F zero(0.f);
-  F U = edge(b, c), V = edge(c, a), W = edge(a, b);
-  const auto inside = [&] { return either(min(min(U, V), W) >= zero, max(max(U, V), W) <= zero); };
-  MaskOf<F> hit = inside();  // and some more, as a zero passes for either sign
+  TriangleAcross<F> across(ray, p0, p1, p2);
+  auto& [a, b, c, U, V, W] = across;
+  MaskOf<F> hit = across.inside();
   if (!any(hit)) return {zero, hit};
   if (any(both(hit, either(either(U == zero, V == zero), W == zero)))) {
     U = exact_edge(U, b, c), V = exact_edge(V, c, a), W = exact_edge(W, a, b);
-    hit = inside();
+    hit = across.inside();
   }
   const F area = U + V + W;
   const F t = (U * a.z + V * b.z + W * c.z) / area * ray.scale;
@@ -124,7 +144,7 @@ Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F
   // On which side of the plane does the ray start? n is off by 3u in each product, v0 by u, the dot product
   // by 3u more: the error is at most 8u of the sum of the absolute products. n.d has the sign of area /
   // scale.
-  const Vec3<F> e1 = p1 - p0, e2 = p2 - p0, n = cross(e1, e2);
+  const Vec3<F> v0 = p0 - ray.o, e1 = p1 - p0, e2 = p2 - p0, n = cross(e1, e2);
   const F height = dot(v0, n);
   const Vec3<F> size{abs(e1.y * e2.z) + abs(e1.z * e2.y), abs(e1.z * e2.x) + abs(e1.x * e2.z),
                      abs(e1.x * e2.y) + abs(e1.y * e2.x)};

@@ -413,8 +413,17 @@ template <class F, class See>
     const std::uint32_t* v = corners(g, refs[i].primitive);
     const Vec3<F> p0 = spread<F>(g.vertices[v[0]]), p1 = spread<F>(g.vertices[v[1]]),
                   p2 = spread<F>(g.vertices[v[2]]);
+    std::uint32_t met = packets;
+    if (packets & (packets - 1)) {
+      // First which of them may meet it at all: a jump that nobody can guess costs more than to ask twice.
+      met = 0;
+      for (std::uint32_t left = packets; left; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        met |= std::uint32_t(may_meet_triangle(rays[k], p0, p1, p2)) << k;
+      }
+    }
     const auto meet = [&](const QueryRay<F>& ray) { return meet_triangle(ray, p0, p1, p2); };
-    ask(refs[i], instance, rays, packets, meet, see);
+    ask(refs[i], instance, rays, met, meet, see);
   }
 }
 
