@@ -250,6 +250,26 @@ TEST(Queries, ABeamOfPacketsGivesTheBitsOfEachRay) {
   }
 }
 
+TEST(Queries, OnlyATriangleThatNoRayMeetsIsPassedOver) {
+  Random random(11);
+  int hits = 0, passed_over = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3<float> o = cast<float>(random.point(3));
+    Vec3<float> p[3];
+    for (Vec3<float>& corner : p) corner = cast<float>(random.point(1));
+    // Towards somewhere in the triangle's plane, now and then towards one of its corners.
+    const double a = i % 7 ? random.number(-0.5, 1.5) : 1, b = i % 7 ? random.number(-0.5, 1.5) : 0;
+    const Vec3<double> c = cast<double>(p[2]),
+                       at = a * cast<double>(p[0]) + b * cast<double>(p[1]) + (1 - a - b) * c;
+    const QueryRay<float> ray(o, cast<float>(normalize(at - cast<double>(o))));
+    const bool may = may_meet_triangle(ray, p[0], p[1], p[2]), hit = meet_triangle(ray, p[0], p[1], p[2]).hit;
+    EXPECT_TRUE(may || !hit);
+    hits += hit, passed_over += !may;
+  }
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(passed_over, 1000);
+}
+
 TEST(Queries, NoRayIsLostBetweenTheTrianglesOfAClosedMesh) {
   // From inside a closed mesh every ray must hit, through vertices and along edges above all.
   for (const Vec3<double>& center : {Vec3<double>{}, Vec3<double>{100, -50, 7}}) {
