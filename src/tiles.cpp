@@ -15,33 +15,49 @@
 namespace lambent {
 namespace {
 
-/// The pixels of a tile in squares of 4 by 4, and four of these in squares of 8 by 8: so the rays of a packet
-/// lie close together, and those of a beam.
-void list_pixels(int x0, int y0, int x1, int y1, std::vector<Pixel>& pixels) {
-  const auto in_squares = [](int size, int left, int top, int right, int bottom, const auto& visit) {
-    for (int y = top; y < bottom; y += size)
-      for (int x = left; x < right; x += size)
-        visit(x, y, std::min(x + size, right), std::min(y + size, bottom));
+/// The pixels of a tile, from its corner on, in squares of 4 by 4, and four of these in squares of 8 by 8: so
+/// the rays of a packet lie close together, and those of a beam.
+std::vector<Pixel> pixels_of_a_tile(int width, int height) {
+  std::vector<Pixel> pixels;
+  const auto in_squares = [](int step, int left, int top, int right, int bottom, const auto& visit) {
+    for (int y = top; y < bottom; y += step)
+      for (int x = left; x < right; x += step)
+        visit(x, y, std::min(x + step, right), std::min(y + step, bottom));
   };
-  in_squares(8, x0, y0, x1, y1, [&](int left, int top, int right, int bottom) {
+  in_squares(8, 0, 0, width, height, [&](int left, int top, int right, int bottom) {
     in_squares(4, left, top, right, bottom, [&](int l, int t, int r, int b) {
       in_squares(1, l, t, r, b, [&](int x, int y, int, int) { pixels.push_back({x, y}); });
     });
   });
+  return pixels;
 }
 
 /// The tiles of a film, row by row.
-struct Tiles {
-  const Film& film;
-  int size;
-  std::int64_t across = (film.width + size - 1) / size, down = (film.height + size - 1) / size;
+class Tiles {
+ public:
+  Tiles(const Film& film, int size)
+      : width_(film.width),
+        height_(film.height),
+        size_(size),
+        across_((film.width + size - 1) / size),
+        down_((film.height + size - 1) / size),
+        of_a_tile_(pixels_of_a_tile(std::min(size, film.width), std::min(size, film.height))) {}
 
-  std::int64_t count() const { return across * down; }
-  void list_pixels_of(std::int64_t i, std::vector<Pixel>& pixels) const {
-    const int x = int(i % across) * size, y = int(i / across) * size;
-    pixels.clear();
-    list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), pixels);
+  std::int64_t count() const { return across_ * down_; }
+  void append_pixels_of(std::int64_t i, std::vector<Pixel>& pixels) const {
+    const int left = int(i % across_) * size_, top = int(i / across_) * size_;
+    const auto first = std::ptrdiff_t(pixels.size());
+    pixels.insert(pixels.end(), of_a_tile_.begin(), of_a_tile_.end());
+    for (auto p = pixels.begin() + first; p != pixels.end(); ++p) p->x += left, p->y += top;
+    if (left + size_ <= width_ && top + size_ <= height_) return;
+    const auto is_outside = [&](const Pixel& p) { return p.x >= width_ || p.y >= height_; };
+    pixels.erase(std::remove_if(pixels.begin() + first, pixels.end(), is_outside), pixels.end());
   }
+
+ private:
+  int width_, height_, size_;
+  std::int64_t across_, down_;
+  std::vector<Pixel> of_a_tile_;
 };
 
 std::uint64_t all_of(const RayCounts& rays) {
@@ -157,6 +173,20 @@ class Crew {
   TileRun& run_;
 };
 
+/// The colours of pixels, whose samples' sums stand one after the other.
+void write_colors(const Mean<double>& mean, const Pixel* pixels, std::size_t count, const double* sums,
+                  Film& film) {
+  for (std::size_t p = 0, end = 0; p < count; p = end) {
+    // Neighbours in a row lie side by side in the film too, where it holds nothing but colours.
+    const auto goes_on = [&] {
+      return pixels[end].y == pixels[p].y && pixels[end].x == pixels[end - 1].x + 1;
+    };
+    for (end = p + 1; film.channels == color_channels && end < count && goes_on();) ++end;
+    float* to = film.pixel(pixels[p].x, pixels[p].y);
+    for (std::size_t k = p * color_channels; k < end * color_channels; ++k) *to++ = float(mean.of(sums[k]));
+  }
+}
+
 /// The layers of the pixels of a task that is done, and what their samples met; their colours must be in the
 /// film.
 void write_layers_and_data(const Kernel& kernel, const PixelTask& task, const std::vector<double>& distances,
@@ -193,7 +223,7 @@ int thread_count(int wanted) {
 
 TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const TileOptions& options) {
   TileRun run;
-  const Tiles tiles{film, options.tile_size};
+  const Tiles tiles(film, options.tile_size);
   const std::size_t columns = film.layers ? std::size_t(frame.layers.columns()) : 0;
   const std::vector<double> distances = distances_from_centre(frame);
   const Mean<double> mean(frame.samples);
@@ -201,7 +231,8 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   // Added up tile by tile, so that the noise does not depend on who was first.
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-    tiles.list_pixels_of(i, worker.pixels);
+    worker.pixels.clear();
+    tiles.append_pixels_of(i, worker.pixels);
     const std::size_t at_a_time = film.wants_hits() ? pixels_with_hits(frame.samples) : worker.pixels.size();
     for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
       const Pixel* pixels = &worker.pixels[first];
@@ -218,15 +249,14 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
         task.squares = worker.squares.data();
       }
       kernel.render(frame, task, worker.scratch, worker.counts);
-      for (std::size_t p = 0; p < count; ++p) {
-        if (noisy)
+      write_colors(mean, pixels, count, worker.sums.data(), film);
+      if (noisy)
+        for (std::size_t p = 0; p < count; ++p)
           noise[std::size_t(i)].add(&worker.sums[p * color_channels], worker.squares[p], frame.samples);
-        float* to = film.pixel(pixels[p].x, pixels[p].y);
-        for (int c = 0; c < color_channels; ++c) to[c] = float(mean.of(worker.sums[p * color_channels + c]));
-        if (!film.guides.empty())
+      if (!film.guides.empty())
+        for (std::size_t p = 0; p < count; ++p)
           film.guides[film.index(pixels[p].x, pixels[p].y)].add(&worker.first_hits[p * distances.size()],
                                                                 distances.size());
-      }
       if (film.layers) write_layers_and_data(kernel, task, distances, film, worker);
     }
   });
@@ -251,10 +281,8 @@ class Goes {
         columns_(film.layers ? std::size_t(frame.layers.columns()) : 0),
         distances_(distances_from_centre(frame)),
         samples(film, settings) {
-    const int size = options.tile_size;
-    for (int y = 0; y < film.height; y += size)
-      for (int x = 0; x < film.width; x += size)
-        list_pixels(x, y, std::min(x + size, film.width), std::min(y + size, film.height), wanted);
+    const Tiles tiles(film, options.tile_size);
+    for (std::int64_t i = 0; i < tiles.count(); ++i) tiles.append_pixels_of(i, wanted);
   }
 
   /// The frame's samples from `first` up to `end`, in its order, of all wanted pixels. The progress goes from
@@ -470,7 +498,7 @@ TileRun render_until(Exposure& exposure, const Kernel& kernel, const PathSetting
 ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& view, int samples, Film& film,
                     const TileOptions& options) {
   ViewRun run;
-  const Tiles tiles{film, options.tile_size};
+  const Tiles tiles(film, options.tile_size);
   const Frame asked = frame_for(frame, view.show);
   const auto task_of = [&](const Pixel* pixels, std::size_t count, Worker& worker) {
     worker.sums.assign(count * color_channels, 0);
@@ -480,7 +508,8 @@ ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& 
   if (view.show != View::rays) {
     const std::size_t at_a_time = pixels_with_hits(samples);
     Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-      tiles.list_pixels_of(i, worker.pixels);
+      worker.pixels.clear();
+      tiles.append_pixels_of(i, worker.pixels);
       for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
         const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
         PixelTask task = task_of(&worker.pixels[first], count, worker);
@@ -502,7 +531,8 @@ ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& 
   // Rays are counted by the task, so that each pixel is one; and none has its colour before all are counted.
   std::vector<std::uint64_t> rays(std::size_t(film.width) * std::size_t(film.height));
   Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-    tiles.list_pixels_of(i, worker.pixels);
+    worker.pixels.clear();
+    tiles.append_pixels_of(i, worker.pixels);
     for (const Pixel& pixel : worker.pixels) {
       const std::uint64_t before = all_of(worker.counts);
       kernel.render(asked, task_of(&pixel, 1, worker), worker.scratch, worker.counts);
