@@ -35,7 +35,9 @@ template <bool Seen> struct Work : Wavefront {
     if constexpr (Seen) grow_layers();
     follow_batches(
         &MaterialRecord::scatter, [&](std::uint32_t count) { begin_batch(count); },
-        [&](std::uint32_t ray) { meet_background(ray); },
+        [&](std::uint32_t i, std::uint32_t end) {
+          for (; i < end; ++i) meet_background(i);
+        },
         [&] { for_each_group([&](int group) { shade_group(group); }); },
         [&](std::uint64_t first, std::uint32_t count) { add_to_pixels(first, count); });
   }

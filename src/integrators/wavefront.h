@@ -97,20 +97,7 @@ struct Wavefront {
     rays.count = count;
     const bool has_lens = frame.camera.lens_radius > 0;
     if (has_lens) choose_lens_points(first, count);
-    const int* order = frame.order;
-    // Where they go through the picture; made rays of below.
-    auto pixel = std::uint32_t(first / samples_per_pixel());
-    int sample = task.first_sample + int(first % samples_per_pixel());
-    for (std::uint32_t i = 0; i < count; ++pixel, sample = task.first_sample) {
-      const double x = task.pixels[pixel].x, y = task.pixels[pixel].y;
-      const std::uint32_t end = min(i + std::uint32_t(task.end_sample - sample), count);
-      for (; i < end; ++i, ++sample) {
-        const Vec2<double>& at = frame.pattern[order ? order[sample] : sample];
-        rays.ox[i] = x + at.x;
-        rays.oy[i] = y + at.y;
-        rays.sample[i] = i;
-      }
-    }
+    place_in_picture(first, count);
     const CameraRecord& camera = frame.camera;
     const F half_width(0.5 * frame.width), half_height(0.5 * frame.height), per_unit(2.0 / frame.height);
     const Vec3<F> right = broadcast<F>(camera.right), up = broadcast<F>(camera.up),
@@ -139,6 +126,31 @@ struct Wavefront {
     }
     counts.eye += count;
     if (frame.cones) begin_cones(count);
+  }
+
+  /// Where samples lie in the picture, in pixels from its upper left corner; kept where the rays' origins
+  /// will be.
+  void place_in_picture(std::uint64_t first, std::uint32_t count) const {
+    RayQueue& rays = scratch.rays;
+    for (std::uint32_t i = 0; i < count; ++i) rays.sample[i] = i;
+    const Pixel* pixel = task.pixels + first / samples_per_pixel();
+    if (samples_per_pixel() == 1) {
+      const Vec2<double> at = frame.pattern[sample_at(task.first_sample)];
+      for (std::uint32_t i = 0; i < count; ++i) rays.ox[i] = pixel[i].x + at.x;
+      for (std::uint32_t i = 0; i < count; ++i) rays.oy[i] = pixel[i].y + at.y;
+      return;
+    }
+    const int* order = frame.order;
+    int sample = task.first_sample + int(first % samples_per_pixel());
+    for (std::uint32_t i = 0; i < count; ++pixel, sample = task.first_sample) {
+      const double x = pixel->x, y = pixel->y;
+      const std::uint32_t end = min(i + std::uint32_t(task.end_sample - sample), count);
+      for (; i < end; ++i, ++sample) {
+        const Vec2<double>& at = frame.pattern[order ? order[sample] : sample];
+        rays.ox[i] = x + at.x;
+        rays.oy[i] = y + at.y;
+      }
+    }
   }
 
   /// Where rays go through the lens, in scene units from its centre; kept where their directions will be.
@@ -265,57 +277,47 @@ struct Wavefront {
   std::uint32_t group_first[group_count + 1]{};  // in rays.order
   std::uint32_t hit_count() const { return group_first[group_count]; }
 
-  /// Sorts the rays that hit something into groups; `background(i)` is called for each ray i that did not.
+  /// Sorts the rays that hit something into groups; `background(first, end)` is called for each run of rays
+  /// that did not.
   template <class Background>
   void sort_into_groups(int MaterialRecord::*way_to_shade, const Background& background) {
     // One's own, as the bytes that are written below could be those of another's pointers.
     const RayQueue rays = scratch.rays;
     std::uint32_t size[group_count] = {};
     // Neighbours often meet the same, so that groups come in runs.
-    std::int32_t geometry = -1, instance = -1;
-    std::uint32_t material = 0, run_begin = 0;
-    std::uint8_t group = no_group;
-    bool one_material = false;
-    const auto end_run = [&](std::uint32_t end) {
-      if (group != no_group) size[group] += end - run_begin;
-      run_begin = end;
-    };
-    for (std::uint32_t i = 0; i < rays.count; ++i) {
-      if (rays.geometry[i] < 0) {
-        end_run(i);
-        geometry = -1, group = no_group;
-        rays.group[i] = no_group;
-        background(i);
+    for (std::uint32_t i = 0, end = 0; i < rays.count; i = end) {
+      const std::int32_t geometry = rays.geometry[i], instance = rays.instance[i];
+      end = end_of_run<lanes>(rays.geometry.data, i, rays.count);
+      if (geometry < 0) {
+        for (std::uint32_t k = i; k < end; ++k) rays.group[k] = no_group;
+        background(i, end);
         continue;
       }
-      const bool elsewhere = rays.geometry[i] != geometry || rays.instance[i] != instance;
-      if (elsewhere || !one_material) {
-        geometry = rays.geometry[i], instance = rays.instance[i];
-        const std::uint32_t m = material_of(frame.world, instance, geometry, rays.primitive[i]);
-        if (elsewhere || m != material) {
-          end_run(i);
-          material = m;
-          one_material = frame.world.geometries[geometry].one_material;
-          group = std::uint8_t(group_of(geometry, instance >= 0, m, way_to_shade));
-        }
+      end = end_of_run<lanes>(rays.instance.data, i, end);
+      const auto material_at = [&](std::uint32_t ray) {
+        return material_of(frame.world, instance, geometry, rays.primitive[ray]);
+      };
+      const std::uint32_t material = material_at(i);
+      if (!frame.world.geometries[geometry].one_material) {
+        const std::uint32_t last = end;
+        for (end = i + 1; end < last && material_at(end) == material;) ++end;
       }
-      rays.material[i] = material;
-      rays.group[i] = group;
+      const auto group = std::uint8_t(group_of(geometry, instance >= 0, material, way_to_shade));
+      for (std::uint32_t k = i; k < end; ++k) rays.material[k] = material;
+      for (std::uint32_t k = i; k < end; ++k) rays.group[k] = group;
+      size[group] += end - i;
     }
-    end_run(rays.count);
     std::uint32_t next[group_count];
     group_first[0] = 0;
     for (int g = 0; g < group_count; ++g)
       next[g] = group_first[g], group_first[g + 1] = group_first[g] + size[g];
-    group = no_group;
-    std::uint32_t* order = nullptr;
-    for (std::uint32_t i = 0; i < rays.count; ++i) {
-      if (rays.group[i] != group) {
-        if (group != no_group) next[group] = std::uint32_t(order - rays.order.data);
-        group = rays.group[i];
-        if (group != no_group) order = &rays.order[next[group]];
-      }
-      if (group != no_group) *order++ = i;
+    for (std::uint32_t i = 0, end = 0; i < rays.count; i = end) {
+      const std::uint8_t group = rays.group[i];
+      for (end = i + 1; end < rays.count && rays.group[end] == group;) ++end;
+      if (group == no_group) continue;
+      std::uint32_t* order = &rays.order[next[group]];
+      for (std::uint32_t k = 0; k < end - i; ++k) order[k] = i + k;
+      next[group] += end - i;
     }
   }
 
@@ -339,6 +341,20 @@ struct Wavefront {
     const RayQueue& rays = scratch.rays;
     if (!frame.environment.texture.levels) return frame.background;
     return background_along(frame, {rays.dx[i], rays.dy[i], rays.dz[i]}, rays.spread[i]);
+  }
+
+  /// Adds the colour of the background, the same everywhere, to the samples of rays.
+  void add_background(std::uint32_t first, std::uint32_t end) {
+    const RayQueue& rays = scratch.rays;
+    for (int c = 0; c < color_channels; ++c) {
+      double* color = scratch.samples.color[c].data;
+      const double* weight = rays.weight[c].data;
+      const double background = frame.background[c];
+      if (depth == 1)  // each is its own sample's
+        for (std::uint32_t i = first; i < end; ++i) color[i] += weight[i] * background;
+      else
+        for (std::uint32_t i = first; i < end; ++i) color[rays.sample[i]] += weight[i] * background;
+    }
   }
 
   /// Adds a ray's colour to its sample.
@@ -789,6 +805,12 @@ struct Wavefront {
   void add_to_pixels(std::uint64_t first, std::uint32_t count) {
     if (task.layer_sums) add_layers_to_pixels(first, count);
     auto pixel = std::uint32_t(first / samples_per_pixel());
+    if (samples_per_pixel() == 1 && !task.squares && !task.least_and_greatest) {
+      double* sums = &task.sums[std::size_t(pixel) * color_channels];
+      for (std::uint32_t i = 0; i < count; ++i)
+        for (int c = 0; c < color_channels; ++c) sums[i * color_channels + c] += scratch.samples.color[c][i];
+      return;
+    }
     int left = samples_per_pixel() - int(first % samples_per_pixel());
     for (std::uint32_t i = 0; i < count; ++pixel, left = samples_per_pixel()) {
       const std::uint32_t end = min(i + std::uint32_t(left), count);

@@ -49,7 +49,7 @@ template <bool Seen> struct Work : Wavefront {
   void follow_samples(std::uint64_t first, std::uint32_t count) {
     follow_batch(
         first, count, &MaterialRecord::model, [&](std::uint32_t n) { begin_batch(n); },
-        [&](std::uint32_t ray) { see_background(ray); },
+        [&](std::uint32_t i, std::uint32_t end) { see_background(i, end); },
         [&] {
           if (frame.lights_have_limits && hit_count() > 0) choose_lights();
           for_each_group([&](int group) { shade_group(group, depth < frame.whitted.max_depth); });
@@ -66,10 +66,13 @@ template <bool Seen> struct Work : Wavefront {
     }
   }
 
-  void see_background(std::uint32_t ray) {
-    const Rgb background = background_of(ray);
-    add(ray, background);
-    if constexpr (Seen) add_background(ray, background);
+  void see_background(std::uint32_t first, std::uint32_t end) {
+    if (!Seen && !frame.environment.texture.levels) return add_background(first, end);
+    for (std::uint32_t ray = first; ray < end; ++ray) {
+      const Rgb background = background_of(ray);
+      add(ray, background);
+      if constexpr (Seen) note_background(ray, background);
+    }
   }
 
   int point_count = 0;  ///< How many of scratch.reaching.
@@ -455,7 +458,7 @@ template <bool Seen> struct Work : Wavefront {
     for (int k = 0; k < at.count; ++k)
       add_to_layer(at.ray[k], frame.layers.first_of(rays.way[at.ray[k]]) + layer, lane_color(color, k));
   }
-  void add_background(std::uint32_t ray, const Rgb& background) {
+  void note_background(std::uint32_t ray, const Rgb& background) {
     if (task.layer_sums)
       add_to_layer(ray, frame.layers.first_of(scratch.rays.way[ray]) + LayerPlan::background, background);
     if (frame.witness) frame.witness->color(frame.witness->self, {scratch.rays.number[ray], background});

@@ -16,6 +16,19 @@ template <int N, class T> bool all_equal(const T* numbers) {
   else return all(Pack<T, N>::load(numbers) == Pack<T, N>(numbers[0]));
 }
 
+/// Where the run ends of numbers that are the same as `numbers[first]`, at `count` at the latest. W are
+/// looked at together, and as many must be there to be read.
+template <int W, class T>
+std::uint32_t end_of_run(const T* numbers, std::uint32_t first, std::uint32_t count) {
+  using P = Pack<T, W>;
+  const P same(numbers[first]);
+  for (std::uint32_t i = first; i < count; i += W) {
+    const std::uint32_t others = ~lane_bits(P::load(numbers + i) == same) & all_lane_bits<W>;
+    if (others) return min(i + std::uint32_t(__builtin_ctz(others)), count);
+  }
+  return count;
+}
+
 /// Lane by lane the nearest vector of To.
 template <class To, class F> Vec3<With<F, To>> number_cast(const Vec3<F>& v) {
   return {number_cast<To>(v.x), number_cast<To>(v.y), number_cast<To>(v.z)};
