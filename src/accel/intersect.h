@@ -30,10 +30,12 @@ template <class F> Vec3<F> spread(const Vec3<double>& v) {
 }
 
 /// The ray in the float arithmetic of the queries. |d| is 1 up to rounding (or the scale of an instance).
-/// With it stands what the triangle test wants: the axis along which the ray moves most, and the shear that
-/// lays the ray along that axis.
+/// With it stands what the tests of boxes, triangles and spheres want of it: for triangles the axis along
+/// which the ray moves most, and the shear that lays the ray along that axis.
 template <class F> struct QueryRay {
   Vec3<F> o, d;
+  Vec3<F> inverse_d;           ///< 1 / d, but finite.
+  F inverse_square;            ///< 1 / d.d
   MaskOf<F> along_x, along_y;  ///< Neither: along z.
   int axis = -1;               ///< 0, 1, 2 where it is the same in all lanes; -1 where it is not.
   F shear_x, shear_y, scale;
@@ -42,6 +44,9 @@ template <class F> struct QueryRay {
   QueryRay(const QueryRay&) = default;
   QueryRay& operator=(const QueryRay&) = default;
   QueryRay(const Vec3<F>& origin, const Vec3<F>& direction) : o(origin), d(direction) {
+    const F tiny = F(1e-18f) * max_abs(d);
+    inverse_d = {invert(d.x, tiny), invert(d.y, tiny), invert(d.z, tiny)};
+    inverse_square = F(1.f) / dot(d, d);
     const F x = abs(d.x), y = abs(d.y), z = abs(d.z);
     along_x = both(x > y, x > z);
     along_y = both(MaskOf<F>(!along_x), y > z);
@@ -49,9 +54,14 @@ template <class F> struct QueryRay {
     else if (all(along_y)) axis = 1;
     else if (!any(either(along_x, along_y))) axis = 2;
     const Vec3<F> p = permute(d);
-    scale = F(1.f) / p.z;
+    scale = permute(inverse_d).z;
     shear_x = p.x * scale;
     shear_y = p.y * scale;
+  }
+  /// A ray that hardly moves along an axis is inside of a slab (t from -large to large) or beside it.
+  static F invert(F d, F tiny) {
+    const F away_from_zero = select(abs(d) < tiny, select(d < F(0.f), -tiny, tiny), d);
+    return F(1.f) / away_from_zero;
   }
   /// v with its axes turned (x to y to z to x) so that z is the one the ray moves along most.
   Vec3<F> permute(const Vec3<F>& v) const {
@@ -63,20 +73,22 @@ template <class F> struct QueryRay {
   }
 };
 
-/// The ray of lane k alone.
-template <class F> QueryRay<float> lane(const QueryRay<F>& rays, int k) {
-  return {lane(rays.o, k), lane(rays.d, k)};
-}
-
 /// The ray of lane k in every lane.
 template <class Into, class F> QueryRay<Into> spread_lane(const QueryRay<F>& rays, int k) {
+  const auto spread_of = [k](const Vec3<F>& v) { return spread<Into>(lane(v, k)); };
   QueryRay<Into> one;
-  one.o = spread<Into>(lane(rays.o, k)), one.d = spread<Into>(lane(rays.d, k));
+  one.o = spread_of(rays.o), one.d = spread_of(rays.d), one.inverse_d = spread_of(rays.inverse_d);
+  one.inverse_square = lane(rays.inverse_square, k);
   const bool along_x = lane(rays.along_x, k), along_y = lane(rays.along_y, k);
   one.along_x = MaskOf<Into>(along_x), one.along_y = MaskOf<Into>(along_y);
   one.axis = along_x ? 0 : along_y ? 1 : 2;
   one.shear_x = lane(rays.shear_x, k), one.shear_y = lane(rays.shear_y, k), one.scale = lane(rays.scale, k);
   return one;
+}
+
+/// The ray of lane k alone.
+template <class F> QueryRay<float> lane(const QueryRay<F>& rays, int k) {
+  return spread_lane<float>(rays, k);
 }
 
 /// A distance and whether it is one.
@@ -161,16 +173,17 @@ Meeting<F> meet_triangle(const QueryRay<F>& ray, const Vec3<F>& p0, const Vec3<F
 template <class F> Meeting<F> meet_sphere(const QueryRay<F>& ray, const Vec3<F>& center, F radius) {
   const F zero(0.f), r2 = radius * radius;
   const Vec3<F> f = ray.o - center;
-  const F a = dot(ray.d, ray.d), b = -dot(f, ray.d);
-  const Vec3<F> l = f + (b / a) * ray.d;
+  const F b = -dot(f, ray.d);
+  const Vec3<F> l = f + (b * ray.inverse_square) * ray.d;
   const F discriminant = r2 - dot(l, l);
   MaskOf<F> hit = discriminant >= zero;
   if (!any(hit)) return {zero, hit};
   const F c = dot(f, f) - r2;
-  const F root = sqrt(max(discriminant, zero) * a);
+  const F root = sqrt(max(discriminant, zero) * dot(ray.d, ray.d));
   const F q = b + select(b < zero, -root, root);
-  const F t0 = c / q, t1 = q / a;  // q = 0 only where the ray starts at its closest approach on the sphere:
-                                   // t0 is then NaN or infinite, and no hit
+  // q = 0 only where the ray starts at its closest approach on the sphere: t0 is then NaN or infinite, and no
+  // hit.
+  const F t0 = c / q, t1 = q * ray.inverse_square;
   const F near = min(t0, t1), far = max(t0, t1);
   const F t = select(near > zero, near, far);
   return {t, both(hit, t > zero, t < F(__builtin_inff()))};

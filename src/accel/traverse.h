@@ -41,20 +41,12 @@ template <class F> struct BoxRay {
   Vec3<F> low, high;  ///< o / d, for lower and upper sides: seen from o moved outwards by the margin.
 
   BoxRay() = default;
-  BoxRay(const QueryRay<F>& ray, float extent) {
+  BoxRay(const QueryRay<F>& ray, float extent) : inverse_d(ray.inverse_d) {
     margin = F(0x1p-20f) * (max_abs(ray.o) + F(extent));
-    const F tiny = F(1e-18f) * max_abs(ray.d);
-    inverse_d = {invert(ray.d.x, tiny), invert(ray.d.y, tiny), invert(ray.d.z, tiny)};
     low = {(ray.o.x + margin) * inverse_d.x, (ray.o.y + margin) * inverse_d.y,
            (ray.o.z + margin) * inverse_d.z};
     high = {(ray.o.x - margin) * inverse_d.x, (ray.o.y - margin) * inverse_d.y,
             (ray.o.z - margin) * inverse_d.z};
-  }
-  /// 1 / d, but finite: a ray that hardly moves along an axis is inside the slab (t from -large to large) or
-  /// beside it.
-  static F invert(F d, F tiny) {
-    const F away_from_zero = select(abs(d) < tiny, select(d < F(0.f), -tiny, tiny), d);
-    return F(1.f) / away_from_zero;
   }
 
   /// Whether the box is met before t_far; `side(row)` is a row of BvhNode::plane.
