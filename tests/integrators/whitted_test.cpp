@@ -507,11 +507,13 @@ TEST(SameBits, WhateverTheThreadsTilesAndInstructionSet) {
 
 TEST(SameBits, APixelDoesNotDependOnTheOthers) {
   // The same rays in a picture of another width would differ; but what a pixel shows does not depend on who
-  // is beside it in a packet.
-  const ScenePtr scene = parse_scene(everything);
-  const Image whole = render(scene).image;
-  const Image tiny = render(scene, {1, 1, "", {}}).image;  // one pixel at a time
-  EXPECT_EQ(whole.data, tiny.data);
+  // is beside it in a packet. Where there is one sample, pixels go on their way by runs.
+  for (const std::string samples : {"1", "3"}) {
+    const ScenePtr scene = parse_scene(everything, "scene", {{{"image.samples", samples}}});
+    const Image whole = render(scene).image;
+    for (const int tile : {1, 3, 50})
+      EXPECT_EQ(whole.data, render(scene, {2, tile, "", {}}).image.data) << tile;
+  }
 }
 
 TEST(SameBits, WithAdaptiveSamplesToo) {

@@ -119,6 +119,19 @@ TEST(Pack, NumbersAreEqualOnlyIfAllAre) {
   EXPECT_TRUE(all_equal<1>(numbers));
 }
 
+TEST(Pack, ARunOfEqualNumbersEndsAtTheFirstOther) {
+  std::mt19937 random(7);
+  for (int turn = 0; turn < 500; ++turn) {
+    std::int32_t numbers[6 * lanes];
+    for (std::int32_t& number : numbers) number = random() % 40 == 0 ? 3 : -1;
+    const std::uint32_t count = std::uint32_t(random() % (5 * lanes)) + 1,
+                        first = std::uint32_t(random()) % count;
+    std::uint32_t end = first;
+    while (end < count && numbers[end] == numbers[first]) ++end;
+    EXPECT_EQ(end_of_run<lanes>(numbers, first, count), end) << "of " << count << ", from " << first;
+  }
+}
+
 TEST(Functions, SineAndCosine) {
   for (int quarter = -8; quarter <= 8; ++quarter) {
     const auto [s, c] = sincos_degrees(90.0 * quarter);
