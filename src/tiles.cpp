@@ -44,6 +44,10 @@ class Tiles {
         of_a_tile_(pixels_of_a_tile(std::min(size, film.width), std::min(size, film.height))) {}
 
   std::int64_t count() const { return across_ * down_; }
+  void list_pixels_of(std::int64_t i, std::vector<Pixel>& pixels) const {
+    pixels.clear();
+    append_pixels_of(i, pixels);
+  }
   void append_pixels_of(std::int64_t i, std::vector<Pixel>& pixels) const {
     const int left = int(i % across_) * size_, top = int(i / across_) * size_;
     const auto first = std::ptrdiff_t(pixels.size());
@@ -231,8 +235,7 @@ TileRun render_tiles(const Frame& frame, const Kernel& kernel, Film& film, const
   // Added up tile by tile, so that the noise does not depend on who was first.
   std::vector<NoiseSum> noise(noisy ? std::size_t(tiles.count()) : 0);
   Crew(options, run).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-    worker.pixels.clear();
-    tiles.append_pixels_of(i, worker.pixels);
+    tiles.list_pixels_of(i, worker.pixels);
     const std::size_t at_a_time = film.wants_hits() ? pixels_with_hits(frame.samples) : worker.pixels.size();
     for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
       const Pixel* pixels = &worker.pixels[first];
@@ -508,8 +511,7 @@ ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& 
   if (view.show != View::rays) {
     const std::size_t at_a_time = pixels_with_hits(samples);
     Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-      worker.pixels.clear();
-      tiles.append_pixels_of(i, worker.pixels);
+      tiles.list_pixels_of(i, worker.pixels);
       for (std::size_t first = 0; first < worker.pixels.size(); first += at_a_time) {
         const std::size_t count = std::min(at_a_time, worker.pixels.size() - first);
         PixelTask task = task_of(&worker.pixels[first], count, worker);
@@ -531,8 +533,7 @@ ViewRun render_view(const Frame& frame, const Kernel& kernel, const ViewRecord& 
   // Rays are counted by the task, so that each pixel is one; and none has its colour before all are counted.
   std::vector<std::uint64_t> rays(std::size_t(film.width) * std::size_t(film.height));
   Crew(options, run.tiles).share(tiles.count(), 0, 1, [&](std::int64_t i, Worker& worker) {
-    worker.pixels.clear();
-    tiles.append_pixels_of(i, worker.pixels);
+    tiles.list_pixels_of(i, worker.pixels);
     for (const Pixel& pixel : worker.pixels) {
       const std::uint64_t before = all_of(worker.counts);
       kernel.render(asked, task_of(&pixel, 1, worker), worker.scratch, worker.counts);

@@ -287,25 +287,27 @@ struct Wavefront {
     // Neighbours often meet the same, so that groups come in runs.
     for (std::uint32_t i = 0, end = 0; i < rays.count; i = end) {
       const std::int32_t geometry = rays.geometry[i], instance = rays.instance[i];
-      end = end_of_run<lanes>(rays.geometry.data, i, rays.count);
+      end = end_of_run<lanes>(i, rays.count, rays.geometry.data, rays.instance.data);
       if (geometry < 0) {
         for (std::uint32_t k = i; k < end; ++k) rays.group[k] = no_group;
         background(i, end);
         continue;
       }
-      end = end_of_run<lanes>(rays.instance.data, i, end);
       const auto material_at = [&](std::uint32_t ray) {
         return material_of(frame.world, instance, geometry, rays.primitive[ray]);
       };
-      const std::uint32_t material = material_at(i);
-      if (!frame.world.geometries[geometry].one_material) {
-        const std::uint32_t last = end;
-        for (end = i + 1; end < last && material_at(end) == material;) ++end;
+      const bool one_material = frame.world.geometries[geometry].one_material;
+      std::uint32_t material = material_at(i);
+      for (std::uint32_t first = i, last = 0; first < end; first = last) {
+        std::uint32_t next = material;
+        last = one_material ? end : first + 1;
+        while (last < end && (next = material_at(last)) == material) ++last;
+        const auto group = std::uint8_t(group_of(geometry, instance >= 0, material, way_to_shade));
+        for (std::uint32_t k = first; k < last; ++k) rays.material[k] = material;
+        for (std::uint32_t k = first; k < last; ++k) rays.group[k] = group;
+        size[group] += last - first;
+        material = next;
       }
-      const auto group = std::uint8_t(group_of(geometry, instance >= 0, material, way_to_shade));
-      for (std::uint32_t k = i; k < end; ++k) rays.material[k] = material;
-      for (std::uint32_t k = i; k < end; ++k) rays.group[k] = group;
-      size[group] += end - i;
     }
     std::uint32_t next[group_count];
     group_first[0] = 0;

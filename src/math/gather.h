@@ -16,15 +16,13 @@ template <int N, class T> bool all_equal(const T* numbers) {
   else return all(Pack<T, N>::load(numbers) == Pack<T, N>(numbers[0]));
 }
 
-/// Where the run ends of numbers that are the same as `numbers[first]`, at `count` at the latest. W are
-/// looked at together, and as many must be there to be read.
-template <int W, class T>
-std::uint32_t end_of_run(const T* numbers, std::uint32_t first, std::uint32_t count) {
-  using P = Pack<T, W>;
-  const P same(numbers[first]);
+/// Where the run ends in which each of the arrays has the number that it has at `first`; at `count` at the
+/// latest. W are looked at together, and as many must be there to be read.
+template <int W, class... T>
+std::uint32_t end_of_run(std::uint32_t first, std::uint32_t count, const T*... numbers) {
   for (std::uint32_t i = first; i < count; i += W) {
-    const std::uint32_t others = ~lane_bits(P::load(numbers + i) == same) & all_lane_bits<W>;
-    if (others) return min(i + std::uint32_t(__builtin_ctz(others)), count);
+    const std::uint32_t same = (lane_bits(Pack<T, W>::load(numbers + i) == Pack<T, W>(numbers[first])) & ...);
+    if (same != all_lane_bits<W>) return min(i + std::uint32_t(__builtin_ctz(~same)), count);
   }
   return count;
 }

@@ -122,13 +122,21 @@ TEST(Pack, NumbersAreEqualOnlyIfAllAre) {
 TEST(Pack, ARunOfEqualNumbersEndsAtTheFirstOther) {
   std::mt19937 random(7);
   for (int turn = 0; turn < 500; ++turn) {
-    std::int32_t numbers[6 * lanes];
-    for (std::int32_t& number : numbers) number = random() % 40 == 0 ? 3 : -1;
+    std::int32_t a[6 * lanes], b[6 * lanes];
+    for (std::int32_t& number : a) number = random() % 40 == 0 ? 3 : -1;
+    for (std::int32_t& number : b) number = random() % 40 == 0 ? 3 : -1;
     const std::uint32_t count = std::uint32_t(random() % (5 * lanes)) + 1,
                         first = std::uint32_t(random()) % count;
-    std::uint32_t end = first;
-    while (end < count && numbers[end] == numbers[first]) ++end;
-    EXPECT_EQ(end_of_run<lanes>(numbers, first, count), end) << "of " << count << ", from " << first;
+    const auto end_where = [&](const auto& goes_on) {
+      std::uint32_t end = first;
+      while (end < count && goes_on(end)) ++end;
+      return end;
+    };
+    EXPECT_EQ(end_of_run<lanes>(first, count, a), end_where([&](auto i) { return a[i] == a[first]; }))
+        << "of " << count << ", from " << first;
+    EXPECT_EQ(end_of_run<lanes>(first, count, a, b),
+              end_where([&](auto i) { return a[i] == a[first] && b[i] == b[first]; }))
+        << "of " << count << ", from " << first;
   }
 }
 
